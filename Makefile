@@ -27,8 +27,8 @@ golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 	$(BIN)/python tests/golden/test_paper_beam.py
 
 references: $(VENV)/.kit  ## the benchmark's reference data and its problem statement
-	$(BIN)/python -m rotbeam_exu.verification.regenerate
-	$(BIN)/python -m rotbeam_exu.verification.kit
+	$(BIN)/python tools/references.py
+	$(BIN)/python tools/problem.py
 
 codes: $(CODES)/.made  ## other codes run the benchmark anew, in an hour; wants g++ and CalculiX's ccx
 	for script in models/codes/*/run.py; do $(CODES)/bin/python $$script || exit 1; done

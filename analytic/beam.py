@@ -9,9 +9,8 @@ from typing import ClassVar
 
 from .arrays import FloatArray
 from .blade import Blade, Variations
-from .damping import UNDAMPED, Damping
 from .input_checks import positive, shown, warn_if_giga
-from .point_mass import PointMass
+from .parts import UNDAMPED, Damping, PointMass
 from .section import OutOfPlane, Section
 from .section_shapes import Gyration
 from .theory import BERNOULLI_EULER, Theory, require_theory
@@ -45,7 +44,7 @@ class Beam(Variations):
     Raises
     ------
     ValueError
-        If a value is not finite and positive, or a product of them is too small or large.
+        If a value is not finite and positive.
     TypeError
         If a value is not a number.
 
@@ -76,21 +75,7 @@ class Beam(Variations):
             youngs_modulus=positive("youngs_modulus", self.youngs_modulus, "Pa"),
             density=positive("density", self.density, "kg/m^3"),
         )
-        self._require_scales()
         warn_if_giga("youngs_modulus", self.youngs_modulus, "Pa", self.density)
-
-    def _require_scales(self) -> None:
-        """Refuse numbers whose products overflow or underflow."""
-        try:
-            scales = (self.mass, self.slenderness, self.frequency_scale, self.burst_speed)
-            within = all(0.0 < scale < math.inf for scale in scales)
-        except (OverflowError, ZeroDivisionError):
-            within = False
-        if not within:
-            raise ValueError(
-                f"{self!r} has a mass, slenderness or frequency beyond floating point numbers: "
-                f"choose units in which its numbers are nearer to 1"
-            )
 
     @classmethod
     def reference(cls) -> Beam:

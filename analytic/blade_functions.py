@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -17,7 +16,7 @@ from .arrays import FloatArray
 from .lazily import linalg
 from .profiles import evaluated
 from .settled import FoundT, settled
-from .shape_functions import ShapeFunctions, shape_functions
+from .shape_functions import shape_functions
 from .unit_blade import UnitBlade
 
 
@@ -29,7 +28,6 @@ class FirstMode(NamedTuple):
     others: tuple[float, float]
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
 class BladeFunctions:
     """Functions φ_k of a blade's deflection, and what its integrals take; no dimensions.
 
@@ -60,38 +58,52 @@ class BladeFunctions:
         ∫(δ + x) φ dm + ∫φ' dj: over c; the Euler force -θ̈ does work on it.
     """
 
-    blade: UnitBlade
-    across: ShapeFunctions
-    at: FloatArray
-    dm: FloatArray
-    dj: FloatArray
-    bent: FloatArray
-    weights: FloatArray
-    to_masses: FloatArray
-    tension: FloatArray
-    deflection: FloatArray
-    slope: FloatArray
-    slope_turning: FloatArray
-    slope_bent: FloatArray
-    curvature: FloatArray
-    tip: FloatArray
-    mass: FloatArray
-    bending: FloatArray
-    centrifugal: FloatArray
-    turning: FloatArray
-    euler: FloatArray
+    def __init__(self, blade: UnitBlade, count: int) -> None:
+        self.blade = blade
+        self.across = across = shape_functions(blade, count)
+        points = 2 * (across.a_panel + 4)
+        x, dx = blade.quadrature(points)
+        self.bent = dx * evaluated(blade.bending, x)
+        self.at, self.dm = blade.inertia(points)
+        turning_at, dj = blade.turning(points)
+        self.dj, inner = dj, blade.grid(points, 4)
+        self.weights = inner.weights
+        # Values at these points to integrals from the clamp to the masses: products of two slopes.
+        self.to_masses = inner.integral(self.at)
+
+        self.deflection = across.twice(self.at)
+        self.slope, self.slope_turning, self.slope_bent = (
+            across.once(places) for places in (inner.points, turning_at, x)
+        )
+        self.curvature = across.strain(x)
+        self.tip = across.twice(np.ones(1))[0]
+        lever = (blade.hub + self.at) * self.dm
+        self.tension = lever @ self.to_masses
+        moved = self.deflection.T @ (self.dm[:, None] * self.deflection)
+        self.turning = self.slope_turning.T @ (dj[:, None] * self.slope_turning)
+        self.mass = moved + self.turning
+        self.bending = self.curvature.T @ (self.bent[:, None] * self.curvature)
+        stiffening = self.slope.T @ (self.tension[:, None] * self.slope)
+        self.centrifugal = stiffening - blade.setting**2 * moved
+        self.euler = lever @ self.deflection + dj @ self.slope_turning
 
     def stiffness(self, w_bar: float) -> FloatArray:
         """Return K (n, n) at w̄: bending, tension, and the softening of the plane of rotation."""
         return np.asarray(self.bending + w_bar**2 * self.centrifugal)
 
-    def first_mode(self, w_bar: float) -> FirstMode:
-        """Return the first mode at w̄."""
+    def modes(self, w_bar: float, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return the lowest w̄_j (count,) at w̄ and the modes (n, count), of unit mass, tip up."""
         # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
         reciprocal, vectors = linalg.eigh(self.mass, self.stiffness(w_bar))
-        first = vectors[:, -1] / (self.tip @ vectors[:, -1])
-        second, third = (1.0 / np.sqrt(reciprocal[-2:-4:-1])).tolist()
-        return FirstMode(first, 1.0 / math.sqrt(reciprocal[-1]), (second, third))
+        frequencies = 1.0 / np.sqrt(reciprocal[: -count - 1 : -1])
+        lowest = vectors[:, : -count - 1 : -1]
+        return frequencies, lowest * np.sign(self.tip @ lowest) * frequencies
+
+    def first_mode(self, w_bar: float) -> FirstMode:
+        """Return the first mode at w̄."""
+        frequencies, modes = self.modes(w_bar, 3)
+        w_n, second, third = frequencies.tolist()
+        return FirstMode(modes[:, 0] / (self.tip @ modes[:, 0]), w_n, (second, third))
 
 
 _KINKED = 1e-5
@@ -103,16 +115,6 @@ _ON_PANEL = 3, 20
 """Least and most functions on each panel, whatever their sum."""
 
 
-def basis_sizes(blade: UnitBlade, w_bar: float) -> list[int]:
-    """Return the numbers of functions to try at w̄, each half as many again as the last."""
-    fewest = min(max(_FEWEST, _A_ROOT * math.sqrt(w_bar)), 2 * _MOST / 3)
-    panels = blade.panel_count
-    sizes = [max(_ON_PANEL[0], math.ceil(fewest / panels))]
-    while (more := math.ceil(1.5 * sizes[-1])) <= max(_ON_PANEL[1], _MOST // panels):
-        sizes.append(more)
-    return [panels * size for size in sizes]
-
-
 def settled_functions(
     solve: Callable[[int], FoundT],
     blade: UnitBlade,
@@ -122,51 +124,16 @@ def settled_functions(
     name: str,
 ) -> FoundT:
     """Return what `solve` finds with the first number of functions that settles its numbers."""
-    sizes = basis_sizes(blade, w_bar)
-    remedy = "rotate slower, or smooth the section"
-    return settled(solve, iter(sizes), tolerance, of, name, remedy, left=_KINKED)[1]
+    fewest = min(max(_FEWEST, _A_ROOT * math.sqrt(w_bar)), 2 * _MOST / 3)
+    panels = blade.panel_count
+    sizes = [max(_ON_PANEL[0], math.ceil(fewest / panels))]
+    while (more := math.ceil(1.5 * sizes[-1])) <= max(_ON_PANEL[1], _MOST // panels):
+        sizes.append(more)
+    remedy, counts = "rotate slower, or smooth the section", (panels * size for size in sizes)
+    return settled(solve, counts, tolerance, of, name, remedy, left=_KINKED)[1]
 
 
 @lru_cache(maxsize=16)
 def blade_functions(blade: UnitBlade, count: int) -> BladeFunctions:
     """Return at least `count` functions of the blade."""
-    across = shape_functions(blade, count)
-    points = 2 * (across.a_panel + 4)
-    x, dx = blade.quadrature(points)
-    bent = dx * evaluated(blade.bending, x)
-    at, dm = blade.inertia(points)
-    turning_at, dj = blade.turning(points)
-    inner = blade.grid(points, 4)
-    # Values at these points to integrals from the clamp to the masses: products of two slopes.
-    to_masses = inner.integral(at)
-
-    phi, slope, slope_turning = (
-        across.twice(at), across.once(inner.points), across.once(turning_at)
-    )  # fmt: skip
-    curvature = across.strain(x)
-    lever = (blade.hub + at) * dm
-    tension = lever @ to_masses
-    moved = phi.T @ (dm[:, None] * phi)
-    turning = slope_turning.T @ (dj[:, None] * slope_turning)
-    return BladeFunctions(
-        blade=blade,
-        across=across,
-        at=at,
-        dm=dm,
-        dj=dj,
-        bent=bent,
-        weights=inner.weights,
-        to_masses=to_masses,
-        tension=tension,
-        deflection=phi,
-        slope=slope,
-        slope_turning=slope_turning,
-        slope_bent=across.once(x),
-        curvature=curvature,
-        tip=across.twice(np.ones(1))[0],
-        mass=moved + turning,
-        bending=curvature.T @ (bent[:, None] * curvature),
-        centrifugal=slope.T @ (tension[:, None] * slope) - blade.setting**2 * moved,
-        turning=turning,
-        euler=lever @ phi + dj @ slope_turning,
-    )
+    return BladeFunctions(blade, count)

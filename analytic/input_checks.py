@@ -6,21 +6,20 @@ the same everywhere: what, where, by how much, what to try.
 
 from __future__ import annotations
 
+import itertools
 import math
-import re
 import reprlib
 from numbers import Integral, Real
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, Profile
 from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
 from .warning import warn
 
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
 _FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
 _SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
-_SPEEDS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rad/s": 1.0}
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
@@ -83,8 +82,7 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
 def finite_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float; refuse all but finite numbers."""
     value = bare(name, value, unit)
-    # NumPy registers durations as numbers, and Python's float() takes none of them.
-    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Real):
+    if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
     number = float(value)
     if not math.isfinite(number):
@@ -94,7 +92,7 @@ def finite_number(name: str, value: object, unit: str = "") -> float:
 
 def whole_number(name: str, value: object, least: int = 1, most: int | None = None) -> int:
     """Return `value` as an int; refuse all but whole numbers from `least` to `most`."""
-    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, Integral):
+    if isinstance(value, bool) or not isinstance(value, Integral):
         raise TypeError(f"{name} must be a whole number, got {shown(value)}")
     number = int(value)
     if number < least:
@@ -138,14 +136,6 @@ def warn_if_giga(name: str, stiffness: float, unit: str, inertia: float) -> None
 
 def rotation_speed(omega: object, name: str = "omega") -> float:
     """Return the rotation speed [rad/s] as a float; by mirror symmetry it is never negative."""
-    told = (
-        re.fullmatch(r"([\d.]+)\s*(rpm|hz|rad/s)", omega.lower())
-        if isinstance(omega, str)
-        else None
-    )
-    if told:
-        meant = float(told[1]) * _SPEEDS[told[2]]
-        raise ValueError(f"{name} must be a number in rad/s, got {omega!r}: write {meant:.6g}")
     return not_negative(
         name,
         omega,
@@ -175,9 +165,6 @@ def float_array(name: str, values: object, unit: str = "") -> FloatArray:
         array = np.asarray(values)
     except (TypeError, ValueError):  # ragged
         array = np.array(None)
-    if isinstance(values, np.ma.MaskedArray):  # NumPy would take what is hidden for numbers
-        remedy = "leave out what is masked, by .compressed()"
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got a masked array: {remedy}")
     fractions = array.dtype.kind == "O" and all(isinstance(item, Real) for item in array.flat)
     if array.size and array.dtype.kind not in "fiu" and not fractions:
         raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
@@ -208,3 +195,47 @@ def points_of_beam(name: str, x: object, length: float) -> FloatArray:
             f"{points[outside][0]:g} m; {name} are distances from the clamp"
         )
     return np.clip(points / length, 0.0, 1.0)
+
+
+def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
+    """Return a profile of plain numbers and tuples, so that it hashes."""
+    profile = bare(name, profile, unit)
+    if not isinstance(profile, tuple | list | np.ndarray):
+        return finite_number(name, profile, unit)
+    items = list(profile)
+    if not items:
+        raise ValueError(f"{name} is empty: give a number, coefficients or stations")
+    if not isinstance(items[0], tuple | list | np.ndarray):
+        return tuple(_entry(f"{name}[{k}]", value, unit) for k, value in enumerate(items))
+    pairs: list[tuple[float, float]] = []
+    for k, pair in enumerate(items):
+        if not isinstance(pair, tuple | list | np.ndarray) or len(pair) != 2:
+            raise ValueError(f"{name}[{k}] must be a station (x, value), got {pair!r}")
+        pairs.append((_entry(f"{name}[{k}]", pair[0], "m"), _entry(f"{name}[{k}]", pair[1], unit)))
+    _require_ascending(name, [x for x, _ in pairs])
+    return tuple(pairs)
+
+
+def _entry(name: str, value: object, unit: str = "") -> float:
+    """Return a number out of a list that may have been read from a file."""
+    if isinstance(value, str):
+        raise TypeError(f"{name} is the text {str(value)!r}: read numbers, as numpy.loadtxt does")
+    if isinstance(value, float) and math.isnan(value):
+        raise ValueError(f"{name} is NaN: leave the station out if its cell is empty")
+    return finite_number(name, value, unit)
+
+
+def _require_ascending(name: str, at: list[float]) -> None:
+    if len(at) < 2:
+        raise ValueError(f"{name} has one station, at {at[0]:g} m: give two at least, or a number")
+    for before, x in itertools.pairwise(at):
+        if x == before:
+            raise ValueError(
+                f"two stations of {name} are at {x:g} m: keep one, or set them apart where the "
+                f"section steps"
+            )
+        if x < before:
+            raise ValueError(
+                f"the stations of {name} must ascend, but {x:g} m comes after {before:g} m: "
+                f"sort them"
+            )

@@ -153,15 +153,6 @@ class SpeedRipple(HarmonicLoad):
         ε [rad/s].
     frequency : float, optional
         ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Damping, SpeedRipple, forced_response
-    >>> blade = Beam.reference().with_damping(Damping(external=0.1))
-    >>> ripple = SpeedRipple(amplitude=0.02)
-    >>> found = forced_response(blade, 6.0, ripple, [3.6, 3.7], functions=8)
-    >>> print(f"{found.amplitude[-1]:.4f} L at {found.frequency[-1]:.1f} rad/s")
-    0.0440 L at 3.7 rad/s
     """
 
     unit: ClassVar[str] = "rad/s"
@@ -231,15 +222,6 @@ class DistributedForce(HarmonicLoad):
         p [N/m].
     frequency : float, optional
         ν [rad/s]; `forced_response` sweeps it, a motion in time needs it.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Damping, DistributedForce, forced_response
-    >>> blade = Beam.reference().with_damping(Damping(external=0.1))
-    >>> push = DistributedForce(amplitude=0.1)
-    >>> found = forced_response(blade, 6.0, push, [3.6, 3.7], functions=8)
-    >>> print(f"{found.amplitude[-1]:.4f} L at {found.frequency[-1]:.1f} rad/s")
-    0.0517 L at 3.7 rad/s
     """
 
     unit: ClassVar[str] = "N/m"

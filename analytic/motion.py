@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -117,7 +118,7 @@ class SpeedChange(Motion, ABC, abstract=True):
     def _within(self, t: Any, derivative: int) -> Any:
         """Return the angle, or its first or second derivative, at t from 0 to `ramp_time`."""
 
-    @property
+    @cached_property
     def fastest(self) -> float:
         """The highest speed [rad/s]."""
         return float(self.rate(np.linspace(0.0, self.ramp_time, _INSTANTS)).max())

@@ -1,9 +1,6 @@
-"""Clamped polynomial bases on the unit interval, and integrals from the clamp on a cut one.
+"""Gauss points and polynomials on the unit interval and on a cut one, and integrals from the clamp.
 
-Integrating P_k twice gives functions with φ(0) = φ'(0) = 0 and orthogonal second derivatives: the
-bending stiffness is diagonal. Integrating once gives functions with ψ(0) = 0 and orthogonal slopes:
-the axial stiffness is diagonal. Both stay well conditioned at any degree in use. On a `Grid` of
-cells each cell is integrated by Gauss points of its own.
+On a `Grid` of cells each cell is integrated by Gauss points of its own.
 """
 
 from __future__ import annotations
@@ -43,21 +40,6 @@ def gauss_points(count: int) -> tuple[FloatArray, FloatArray]:
     return points, weights
 
 
-def transverse_basis(count: int, x: FloatArray) -> BasisValues:
-    """Return φ_k, φ_k', φ_k'' at `x` in [0, 1], φ_k'' = √(2k+1) P_k(2x-1), k < `count`."""
-    curvature = _legendre(count + 2, x)
-    slope = _integrated(curvature)
-    value = _integrated(slope)
-    return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
-
-
-def axial_basis(count: int, x: FloatArray) -> BasisValues:
-    """Return ψ_k, ψ_k', ψ_k'' at `x` in [0, 1], ψ_k' = √(2k+1) P_k(2x-1), k < `count`."""
-    slope = _legendre(count + 1, x)
-    value, curvature = _integrated(slope), _differentiated(slope)
-    return BasisValues(*(_normalized(count, part) for part in (value, slope, curvature)))
-
-
 def polynomials_on(count: int, x: FloatArray, panels: FloatArray) -> BasisValues:
     """Return polynomials and two derivatives at `x`: each (points, `count` for every panel).
 
@@ -85,9 +67,15 @@ def integrals_from_clamp(count: int, x: FloatArray) -> FloatArray:
 
     Exact for polynomials of a degree below `count`.
     """
+    value = _normalized(count, _integrated(_legendre(count + 1, x)))
+    return np.asarray(value @ _onto_slopes(count).T)
+
+
+@cache
+def _onto_slopes(count: int) -> FloatArray:
+    """Return the matrix from values at `count` Gauss points to coefficients of ψ'."""
     points, weights = gauss_points(count)
-    onto = axial_basis(count, points).slope * weights[:, None]
-    return np.asarray(axial_basis(count, x).value @ onto.T)
+    return np.asarray(_normalized(count, _legendre(count, points)) * weights[:, None])
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +148,7 @@ class Grid:
             count, first, start = self.counts[k], self._first[k], self.ends[k]
             points, weights = gauss_points(int(count))
             here = np.append(points, (x[row] - start) / (self.ends[k + 1] - start))
-            waves = axial_basis(int(count), here).slope
+            waves = _normalized(int(count), _legendre(int(count), here))
             result[row, first : first + count] = weights * (waves[:-1] @ waves[-1])
         return result
 
@@ -248,7 +236,7 @@ def _normalized(count: int, values: FloatArray) -> FloatArray:
 
 
 def _integrated(values: FloatArray) -> FloatArray:
-    """∫P_k dx = (P_{k+1} - P_{k-1})/(4k+2) from the clamp, P_{-1} being -P_0; and so again."""
+    """∫P_k dx = (P_{k+1} - P_{k-1})/(4k+2) from the clamp, P_{-1} being -P_0."""
     before = np.concatenate((-values[..., :1], values[..., :-2]), axis=-1)
     k = np.arange(values.shape[-1] - 1)
     return np.asarray((values[..., 1:] - before) / (4.0 * k + 2.0))

@@ -204,7 +204,4 @@ class SpeedTable(SpeedChange):
 def _coefficients(name: str, values: object) -> tuple[float, ...]:
     if np.size(np.asarray(values, dtype=object)) == 0:
         return ()
-    numbers = finite_values(name, values)
-    if numbers.size > _MOST_WAVES:
-        raise ValueError(f"at most {_MOST_WAVES} {name} are taken, got {numbers.size}")
-    return tuple(numbers.tolist())
+    return tuple(finite_values(name, values).tolist())

@@ -18,7 +18,6 @@ from .input_checks import not_negative, positive
 from .section import OutOfPlane
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
-_THINNEST = 1000.0  # of one side over the other
 _SAME = 0.01  # what rounded lengths may differ from A and I
 _NO_LENGTHS = ("poisson_ratio", "ratio")
 
@@ -168,11 +167,6 @@ class _TwoSided(SectionShape, ABC, abstract=True):
 
     def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
         ratio = self.ratio or lengths["height"] / lengths["width"]
-        if not 1.0 / _THINNEST <= ratio <= _THINNEST:
-            raise ValueError(
-                f"the ratio of height to width must be between {1.0 / _THINNEST:g} and "
-                f"{_THINNEST:g}, got {ratio:g}: beyond, it is a foil and no beam"
-            )
         return 1.0 / ratio**2, self._torsion(ratio)
 
     @abstractmethod
@@ -226,13 +220,6 @@ class Ellipse(_TwoSided):
     ----------
     height, width, ratio, poisson_ratio : float, optional
         As of a `Rectangle`.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Ellipse
-    >>> blade = Beam.reference().blade.with_shape(Ellipse(ratio=2.0))
-    >>> print(blade.section.out_of_plane.bending_ratio)
-    0.25
     """
 
     _deep = 16.0
@@ -262,13 +249,6 @@ class Circle(SectionShape):
         [m].
     poisson_ratio : float
         ν, which tells the shear modulus.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Circle
-    >>> blade = Beam.reference().blade.with_shape(Circle())
-    >>> print(f"GJ = {blade.section.out_of_plane.torsion_ratio:.4f} EI")
-    GJ = 0.7692 EI
     """
 
     radius: float | None = None
@@ -291,13 +271,6 @@ class Tube(SectionShape):
         Mean radius and thickness of the wall [m]; by default they give the beam's A and I.
     poisson_ratio : float
         ν, which tells the shear modulus.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Tube
-    >>> tube = Beam.reference().with_shape(Tube(radius=0.015, wall=0.77e-3))
-    >>> print(tube.section.out_of_plane.bending_ratio)
-    1.0
     """
 
     radius: float | None = None

@@ -15,43 +15,33 @@ R = TypeVar("R")
 
 
 class _Limit:
-    """One thread of BLAS while a call runs; the thread that set it restores the number before.
-
-    Calls of other threads meanwhile change nothing: the number is one for the whole process.
-    """
+    """One thread of BLAS while the first thread's calls run, which alone can restore the number."""
 
     def __init__(self) -> None:
         self.lock = threading.Lock()
         self.owner, self.calls = 0, 0
-        self.libraries: Any = None
-        self.before: list[int] = []
+        self.controller: Any = None
+        self.limiter: Any = None
 
     def __enter__(self) -> None:
         with self.lock:
             if self.calls == 0:
                 self.owner = threading.get_ident()
-                self._set_one()
+                if self.controller is None:
+                    # SciPy brings a BLAS of its own, which must be loaded to be found.
+                    import scipy.linalg  # noqa: F401, PLC0415
+                    from threadpoolctl import ThreadpoolController  # noqa: PLC0415
+
+                    self.controller = ThreadpoolController()
+                self.limiter = self.controller.limit(limits=1, user_api="blas")
             self.calls += self.owner == threading.get_ident()
-
-    def _set_one(self) -> None:
-        if self.libraries is None:
-            # SciPy brings a BLAS of its own, which must be loaded to be found.
-            import scipy.linalg  # noqa: F401, PLC0415
-            from threadpoolctl import ThreadpoolController  # noqa: PLC0415
-
-            self.libraries = ThreadpoolController().select(user_api="blas").lib_controllers
-        self.before = [library.num_threads for library in self.libraries]
-        for library in self.libraries:
-            library.set_num_threads(1)
 
     def __exit__(self, *_: object) -> None:
         with self.lock:
-            if self.calls == 0 or self.owner != threading.get_ident():
-                return
-            self.calls -= 1
-            if self.calls == 0:
-                for library, threads in zip(self.libraries, self.before, strict=True):
-                    library.set_num_threads(threads)
+            if self.calls and self.owner == threading.get_ident():
+                self.calls -= 1
+                if self.calls == 0:
+                    self.limiter.restore_original_limits()
 
 
 _limit = _Limit()

@@ -9,8 +9,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from .arrays import FloatArray
-from .profiles import Profile, evaluated, stations
+from .arrays import FloatArray, Profile
+from .profiles import evaluated, stations
 from .quadrature import Grid
 
 _SAME = 1e-9  # stations and masses that are no farther apart
@@ -126,18 +126,16 @@ class UnitBlade:
 
     def inertia(self, count: int) -> tuple[FloatArray, FloatArray]:
         """Return points and their masses dm, the point masses' at the end."""
-        x, weights = self.quadrature(count)
-        at = np.array([position for position, _, _ in self.masses])
-        lumped = np.array([mass for _, mass, _ in self.masses])
-        return np.append(x, at), np.append(weights * evaluated(self.mass, x), lumped)
+        return self._measure(count, self.mass, 1)
 
     def turning(self, count: int) -> tuple[FloatArray, FloatArray]:
         """Return the measure dj against rotation, as `inertia`."""
+        return self._measure(count, self.rotary, 2)
+
+    def _measure(self, count: int, along: Profile, kind: int) -> tuple[FloatArray, FloatArray]:
         x, weights = self.quadrature(count)
-        at = np.array([position for position, _, _ in self.masses])
-        lumped = np.array([inertia for _, _, inertia in self.masses])
-        dj = weights * evaluated(self.rotary, x)
-        return np.append(x, at), np.append(dj, lumped)
+        lumped = np.array(self.masses).reshape(-1, 3)
+        return np.append(x, lumped[:, 0]), np.append(weights * evaluated(along, x), lumped[:, kind])
 
 
 def _apart(inner: Iterable[float]) -> FloatArray:

@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import analytic
-from analytic import Beam, Rectangle, Tube, planar_stability, stability_limit
+from analytic import Beam, Rectangle, Tube, planar_stability
 from rotbeam_exu import comparison, figures
 
 beam = Beam.reference()
@@ -25,9 +25,9 @@ data = comparison.growth_out_of_plane(
 ends = {2.0: [0.098, 0.119, 0.166, 0.219, 0.276], 4.0: [0.156, 0.190, 0.268], 6.0: [0.196, 0.231]}
 
 # %%
-# The limit is the amplitude above which all orbits leave the plane, found to four digits. The tube
-# is looked at where the spin-ups to 4 rad/s end:
-limit = stability_limit(strip, 4.0, damping=0.005, largest=0.1)
+# :func:`~analytic.stability_limit` finds the amplitude above which all orbits leave the plane. Here
+# are two orbits of the strip, below and above it, and the tube's where the spin-ups to 4 rad/s end:
+limit = planar_stability(strip, 4.0, [0.058, 0.060], damping=0.005)
 round_one = planar_stability(tube, 4.0, ends[4.0])
 figures.growth_out_of_plane(data, spin_ups=ends)
 print(limit, round_one, sep="\n")

@@ -17,7 +17,7 @@ plt.style.use(figures.STYLE)
 beam = Beam.reference()
 strip = backbone(beam.with_shape(Rectangle()), omega=0.0, functions=12)
 thick = backbone(beam.blade.with_shape(Rectangle(ratio=1.36)), omega=2.0, functions=8)
-branches = [strip.leaving(0.0074, 0.0079, points=13), thick.leaving(0.2, 0.3, points=18)]
+branches = [strip.leaving(0.0074, 0.0079, points=11), thick.leaving(0.2, 0.3, points=18)]
 titles = ["strip, at rest", "h/b = 1.36, 2 rad/s"]
 
 _, axes = plt.subplots(1, 2, figsize=(7.0, 3.2), layout="constrained")

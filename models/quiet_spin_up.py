@@ -23,12 +23,13 @@ ramps = {
 
 _, (above, below) = plt.subplots(nrows=2, sharex=True, figsize=(6, 5))
 left, way = {}, {}
+looks = dict(zip(ramps, ("C0-", "C1--", "C2-."), strict=True))
 for name, ramp in ramps.items():
     run = simulate(beam, ramp, duration=10.0)
     left[name] = 0.5 * np.ptp(run["q"].sel(time=slice(T, None)).to_numpy()) / beam.length
     way[name] = np.abs(run["q"]).max().item() / beam.length
-    above.plot(run["time"], ramp.acceleration(run["time"].to_numpy()), label=name)
-    below.plot(run["time"], run["q"] / beam.length)
+    above.plot(run["time"], ramp.acceleration(run["time"].to_numpy()), looks[name], label=name)
+    below.plot(run["time"], run["q"] / beam.length, looks[name])
 above.set(ylabel="acceleration [rad/s²]")
 above.legend()
 below.set(xlabel="time [s]", ylabel="tip displacement q/L", xlim=(0.0, 10.0))
@@ -46,9 +47,8 @@ errors = np.linspace(-0.04, 0.04, 13)
 _, axes = plt.subplots(figsize=(5, 3))
 for name, ramp in ramps.items():
     others = [beam.in_units(length=1.0, mass=1.0, time=1.0 + error) for error in errors]
-    axes.semilogy(
-        100.0 * errors, [residual_amplitude(one, ramp, exact=True) for one in others], label=name
-    )
+    amplitudes = [residual_amplitude(one, ramp, exact=True) for one in others]
+    axes.semilogy(100.0 * errors, amplitudes, looks[name], label=name)
 axes.set(xlabel="error of the frequency [%]", ylabel="residual amplitude / L")
 axes.legend()
 plt.show()

@@ -24,7 +24,7 @@ lowest = run["q"][int(run["q"].argmin("time"))]
 lag, at = lowest.item(), lowest["time"].item()
 history.plot(at, lag, "ko", ms=3)
 history.set_ylim(top=0.1)
-history.annotate(f"−{-lag:.3f} m", (at, lag), (0, 24), ha="center", textcoords="offset points")
+history.annotate(f"−{-lag:.3f} m", (at, lag), (0, 40), ha="center", textcoords="offset points")
 plt.show()
 
 # %%

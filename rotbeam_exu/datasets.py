@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from analytic import AmplitudeNotReachedError, AnyBlade
-from analytic.exact.beam.section_loads import SectionLoads, set_at
+from analytic.exact.beam.kinematics import set_at
+from analytic.exact.beam.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
 from analytic.exact.driven.response import SpaceResponse, SpinUpResponse
 from analytic.exact.free.orbits import Orbits
@@ -25,9 +26,8 @@ from .files.results import parts
 from .labels import GROWTH, dataset
 from .lazily import xr
 from .result_columns import COLUMNS, SWINGS, of_columns
-from .runs.attributes import beam_attributes, loads_attributes, motion_attributes
+from .runs.attributes import beam_attributes, loads_attributes, motion_attributes, versions
 from .runs.shape import shape_of
-from .runs.versions import versions
 
 _FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
 _MOMENTS = {"x": "torque", "y": "bending moment out of the plane", "z": "bending moment"}

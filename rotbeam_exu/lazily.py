@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 from analytic.lazily import Lazily
 
 if TYPE_CHECKING:
-    import h5netcdf
     import h5py
     import xarray as xr
 else:
-    h5netcdf, h5py, xr = map(Lazily, ("h5netcdf", "h5py", "xarray"))
+    h5py, xr = map(Lazily, ("h5py", "xarray"))
 
-__all__ = ["Lazily", "h5netcdf", "h5py", "xr"]
+__all__ = ["Lazily", "h5py", "xr"]

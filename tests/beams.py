@@ -1,11 +1,12 @@
 """Beams and blades that tests in several folders share."""
 
 import numpy as np
+from numpy.polynomial import Legendre
 from scipy.sparse import coo_array
 from scipy.sparse.linalg import eigsh
 
 from analytic import Beam, Blade, Section
-from analytic.quadrature import gauss_points, transverse_basis
+from analytic.quadrature import BasisValues, gauss_points
 
 SHARE = (5.0 / 6.0) / 2.6
 """Shear stiffness over axial stiffness, of a rectangle with Poisson's ratio 0.3."""
@@ -32,10 +33,18 @@ def unit_beam(slenderness):
     )
 
 
+def clamped_basis(count, x, order=2):
+    """φ_k, φ_k' and φ_k'' at `x`, of which the derivative of that order is √(2k+1) P_k(2x-1)."""
+    waves = [np.sqrt(2 * k + 1) * Legendre.basis(k, domain=[0.0, 1.0]) for k in range(count)]
+    functions = [wave.integ(order, lbnd=0.0) for wave in waves]
+    kinds = ([f.deriv(n)(x) if n else f(x) for f in functions] for n in range(3))
+    return BasisValues(*(np.stack(kind, axis=-1) for kind in kinds))
+
+
 def deflection_matrices(w_bar, count):
     """K and M of the inextensible beam in rotation, on polynomials of v: K c = w̄_j² M c."""
     x, weights = gauss_points(count + 4)
-    phi, slope, curvature = transverse_basis(count, x)
+    phi, slope, curvature = clamped_basis(count, x)
     M = phi.T * weights @ phi
     stiffening = 0.5 * w_bar**2 * slope.T * (weights * (1.0 - x**2)) @ slope
     return curvature.T * weights @ curvature + stiffening - w_bar**2 * M, M

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from .crest import crest_of, peak_gradient
 from .fourier import Period, packed, unpacked
 from .newton import Newton, NoOrbitError, Vector, factored, length, solved
 from .orbit import Orbit, S
@@ -65,11 +64,8 @@ def jacobian(orbit: Orbit[Any]) -> FloatArray:
 def _waves_onto_waves(
     at: Period, powers: FloatArray, rows: slice, columns: slice, transposed: FloatArray
 ) -> None:
-    """Write the Jacobian between rows of the coefficients, from powers (3, phases, by, of).
-
-    Waves of orders j and k multiply to waves of the orders j - k and j + k, so that all products
-    are two of the tangent's own Fourier coefficients.
-    """
+    """Write the Jacobian between rows of the coefficients, from powers (3, phases, by, of)."""
+    # Waves of orders j and k multiply to j - k and j + k: two of the tangent's own coefficients.
     _, _, by, of = powers.shape
     H, count = len(at.onto) // 2, rows.stop - rows.start
     from_sines, to_sines = columns.start > H, rows.start > H
@@ -143,7 +139,7 @@ class LastTangent:
     def factor(self, orbit: Orbit[Any]) -> None:
         """Factor the tangent at the orbit, the derivatives of its peak the last row."""
         matrix = jacobian(orbit)
-        matrix[-1] = peak_gradient(orbit)
+        matrix[-1] = orbit.peak_gradient()
         self.factors = factored(matrix)
 
 
@@ -153,7 +149,7 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
     The `tangent`, of an orbit near by, is factored anew only where the iteration contracts slowly;
     until then Broyden's method improves its steps. Raises NoOrbitError.
     """
-    tangent, crest = tangent or LastTangent(), crest_of(guess)
+    tangent, crest = tangent or LastTangent(), guess.crest()
     parts, shape = guess.parts, guess.coefficients.shape
     moving = guess.moving
 
@@ -188,7 +184,7 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
         if found is None:
             break
         z, factors = found.z, found.factors
-        crest = crest_of(orbit(z))
+        crest = orbit(z).crest()
         if abs(crest.height - amplitude) < _SAME_PEAK * amplitude:
             return replace(orbit(z), amplitude=amplitude)
     if others is not None and tangent.factors is others:  # they led astray
@@ -209,7 +205,7 @@ def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> f
         tangent.factor(orbit)
     finer = orbit.system.refined()
     kept = orbit.system.lifted(np.ones(orbit.system.size), finer) > 0.0
-    moved, (peaks, weights) = orbit.on(finer), np.array(orbit.crests).T
+    moved, (peaks, weights) = orbit.on(finer), orbit.crests
     at, defect = orbit.period(fine=True), orbit.finer_defect
     for step in range(_FINER_STEPS):
         if step > 0:

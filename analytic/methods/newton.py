@@ -167,10 +167,7 @@ def by_products(
 
 
 def _improved(step: FloatArray, steps: Sequence[FloatArray]) -> FloatArray:
-    """Return a step by a factored tangent, improved by the `steps` since then.
-
-    Broyden's method, in the form that keeps steps instead of matrices (Kelley 1995, Sec. 7.3).
-    """
+    """Return a step improved by those before: Broyden's method by steps (Kelley 1995, Sec. 7.3)."""
     if not steps:
         return step
     for last, following in pairwise(steps):

@@ -1,4 +1,4 @@
-"""A periodic orbit, free or driven: its Fourier series, and all that it tells."""
+"""A periodic orbit, free or driven: its Fourier series, its peak, and all that it tells."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from typing import Any, Generic, Self, TypeVar
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
-from .fourier import Parts, Period, parts_of, period, waves
+from .fourier import Parts, Period, packed, parts_of, period, waves
 from .system import Tangent
 
+_PHASE_STEP = 1e-4  # of the last step to the peak: after it the phase is wrong by its square
 _MOVES = 1e-9  # of the coordinates; less is round-off of those that stand still
 
 S = TypeVar("S", bound=Any)  # a System; `Path` and `OrbitCurve` say which
@@ -83,11 +84,45 @@ class Orbit(Generic[S]):
         return slice(count * self.harmonics) if self.system.odd is not None else slice(count, None)
 
     @property
-    def crests(self) -> list[tuple[float, float]]:
+    def crests(self) -> tuple[FloatArray, FloatArray]:
         """Phases of the peak and, where it counts, of the lowest point, and their weights."""
         if math.isnan(self.low_phase):
-            return [(self.peak_phase, 1.0)]
-        return [(self.peak_phase, 0.5), (self.low_phase, -0.5)]
+            return np.array([self.peak_phase]), np.ones(1)
+        return np.array([self.peak_phase, self.low_phase]), np.array([0.5, -0.5])
+
+    def gauge_near(self, phase: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the gauge at a few phases, and its derivative to the phase; both (phases,)."""
+        q, change = waves(phase, self.harmonics, order=1) @ self.coefficients
+        return self.system.gauge(q), self.system.gauge_rate(q, change)
+
+    def crest(self) -> Crest:
+        """Return the peak of the gauge; of a full series that of its size, or half a free swing."""
+        half = self.system.odd is not None
+        at = self.period(fine=not half)
+        gauge = self.system.gauge(self.summed(at.waves)[0])
+        both = at.phase[[np.argmax(gauge), np.argmin(gauge)]]
+        if half or not self.system.driven:
+            return Crest(self, both[:1] if half else both)
+        # Both sides are nearly as high, and samples do not tell which is higher.
+        return max((Crest(self, both[[i]]) for i in (0, 1)), key=lambda crest: abs(crest.height))
+
+    def at_peak(self) -> Self:
+        """Return the orbit with its amplitude and the phase of the peak."""
+        crest = self.crest()
+        return replace(self, peak_phase=crest.phase, amplitude=abs(crest.height))
+
+    def peak_gradient(self) -> FloatArray:
+        """Return the derivatives of the peak to the unknowns and, zero, to the frequency.
+
+        The phase is where the gauge is stationary, so it adds nothing to them.
+        """
+        phases, weights = self.crests
+        wave = waves(phases, self.harmonics, order=0)[0]
+        q = wave @ self.coefficients
+        if phases.size == 1:
+            weights = np.sign(self.system.gauge(q))
+        rows = (wave.T * weights) @ self.system.gauge_gradient(q)
+        return np.append(packed(rows, self.parts), 0.0)
 
     def coordinates(self, phase: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return q, dq/dτ, d²q/dτ² (phases, n) at the phases (phases,)."""
@@ -135,11 +170,8 @@ class Orbit(Generic[S]):
         return np.asarray(system.residual(*state, *self.drive(self.period(fine=True).phase)))
 
     def _relative(self, defect: FloatArray) -> float:
-        """Return the largest defect, over the motion of the coordinates that are measured.
-
-        The mean and the motion are each measured by their own size, or the residual of a steady
-        stretch would be told as that of a small motion about it.
-        """
+        """Return the largest defect, over the motion of the coordinates that are measured."""
+        # Mean and motion by their own sizes: a steady stretch's residual is no small motion's.
         q, odd = self._finely[0], self.system.odd
         mean, motion = defect.mean(axis=0), q - q.mean(axis=0)
         moving = motion if odd is None else motion[:, odd]
@@ -228,3 +260,44 @@ class Orbit(Generic[S]):
         mean = self.system.equilibrium
         coefficients[0] = mean + factor**2 * (self.coefficients[0] - mean)
         return replace(self, amplitude=amplitude, coefficients=coefficients)
+
+
+class Crest:
+    """The peak of the gauge near a phase, or half the swing to it from the lowest point.
+
+    By Newton's method. `follow` takes one more step, with the same curvature, as the orbit changes
+    a little. The phases are near the peak (1,) or near that and the lowest point (2,); `height` is
+    the peak's, or half the distance.
+    """
+
+    def __init__(self, orbit: Orbit[Any], phases: FloatArray) -> None:
+        self._phases = phases
+        for _ in range(6):
+            near = np.add.outer(self._phases, [-1e-4, 0.0, 1e-4])
+            value, slope = (part.reshape(-1, 3) for part in orbit.gauge_near(near.ravel()))
+            self._curvature = (slope[:, 2] - slope[:, 0]) / 2e-4
+            self._step(value[:, 1], slope[:, 1])
+            if self._moved < _PHASE_STEP:
+                break
+
+    @property
+    def phase(self) -> float:
+        """Phase of the peak."""
+        return float(self._phases[0])
+
+    @property
+    def low_phase(self) -> float:
+        """Phase of the lowest point; NaN where there is none."""
+        return float(self._phases[1]) if self._phases.size > 1 else math.nan
+
+    def follow(self, orbit: Orbit[Any]) -> None:
+        """Take the next step."""
+        self._step(*orbit.gauge_near(self._phases))
+
+    def _step(self, value: FloatArray, slope: FloatArray) -> None:
+        step = -slope / self._curvature
+        self._phases = self._phases + np.clip(step, -0.2, 0.2)
+        # Beyond the step's square, which is half its slope, the cube is below round-off.
+        heights = value + 0.5 * step * slope
+        self._moved = float(np.abs(step).max())
+        self.height = float(heights[0] if heights.size == 1 else 0.5 * (heights[0] - heights[1]))

@@ -17,7 +17,6 @@ import numpy as np
 from ..arrays import FloatArray
 from .arclength import Point, advanced, corrected, crossing, located
 from .continuation import Care, refined
-from .crest import at_peak, peak_gradient
 from .fourier import packed, unpacked
 from .harmonic_balance import jacobian, products, projected
 from .newton import NoOrbitError, Vector
@@ -70,7 +69,7 @@ class OrbitCurve(Generic[S]):
 
     def orbit(self, z: FloatArray) -> Orbit[S]:
         """Return the orbit of the unknowns, with its peak."""
-        return at_peak(self._raw(z))
+        return self._raw(z).at_peak()
 
     def residual(self, z: FloatArray) -> FloatArray:
         """Return the projected residual, as many as there are coefficients."""
@@ -135,7 +134,7 @@ class At(Generic[S]):
             return None
 
         def climb(point: Point) -> float:
-            return float(peak_gradient(curve.orbit(point.z)) @ point.tangent)
+            return float(curve.orbit(point.z).peak_gradient() @ point.tangent)
 
         return located(curve, self.point, there.point, climb)
 

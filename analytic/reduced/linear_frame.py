@@ -21,7 +21,7 @@ from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..blade_functions import blade_functions
 from ..input_checks import finite_values, flag, points_of_beam
-from ..lazily import integrate, linalg
+from ..lazily import integrate
 from ..motion import SpeedChange, require_ramp
 from ..threads import one_thread
 
@@ -111,20 +111,33 @@ def linear_response(
         raise ValueError("times must ascend from 0 s on, for the blade is at rest before")
     along = points_of_beam("points", points, beam.length)
     blade = beam.unit
-    of = blade_functions(blade, _FUNCTIONS)
+    of, scale = blade_functions(blade, _FUNCTIONS), beam.frequency_scale
     softening = -(blade.setting**2) * (of.mass - of.turning)
-    rotation = of.centrifugal if foreshortening else softening
-    # The modes after the ramp, or at rest: more would cost shorter steps, for 5e-4 of q. M is
-    # nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
-    pulled = (spin_up.fastest / beam.frequency_scale) ** 2 * foreshortening
-    reciprocal, vectors = linalg.eigh(of.mass, of.bending + pulled * rotation)
-    modes = vectors[:, : -_MODES - 1 : -1] / np.sqrt(reciprocal[: -_MODES - 1 : -1])
-    coordinates = _integrated(
-        beam, spin_up, time,
-        bending=modes.T @ of.bending @ modes,
-        rotation=modes.T @ rotation @ modes,
-        lever=blade.setting * of.euler @ modes,
-    )  # fmt: skip
+    turned = of.centrifugal if foreshortening else softening
+    # The modes after the ramp, or at rest: more would cost shorter steps, for 5e-4 of q.
+    _, modes = of.modes(spin_up.fastest / scale * foreshortening, _MODES)
+    bending, rotation = (modes.T @ part @ modes for part in (of.bending, turned))
+    lever = blade.setting * of.euler @ modes
+
+    def derivative(t: float, state: FloatArray) -> FloatArray:
+        """Return what solves q̈ + (bending + θ̇² rotation) q = -θ̈ lever, times in 1/√(EI/mL³)."""
+        rate, acceleration = spin_up.rate(t / scale) / scale, spin_up.acceleration(t / scale)
+        q, q_dot = state.reshape(2, -1)
+        force = -(acceleration / scale**2) * lever - (bending + rate**2 * rotation) @ q
+        return np.concatenate((q_dot, force))
+
+    asked, back = np.unique(scale * time, return_inverse=True)
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = integrate.solve_ivp(
+            derivative, (0.0, asked[-1] or 1.0), np.zeros(2 * _MODES), t_eval=asked,
+            method="DOP853", rtol=_TOLERANCE, atol=1e-3 * _TOLERANCE,
+        )  # fmt: skip
+    if not found.success or not np.isfinite(found.y).all():
+        raise RuntimeError(
+            f"the linear model's deflection grows beyond all numbers before t = {time[-1]:g} s: "
+            "ask for earlier times"
+        )
+    coordinates = found.y[:_MODES, back].T
     across = coordinates @ (of.across.twice(along) @ modes).T
     axis = np.stack(np.broadcast_arrays(along, across), axis=-1)
     return LinearResponse(
@@ -132,39 +145,3 @@ def linear_response(
         q=beam.length * coordinates @ (of.tip @ modes), points=beam.length * along,
         axis=beam.length * axis,
     )  # fmt: skip
-
-
-def _integrated(
-    beam: AnyBlade,
-    spin_up: SpeedChange,
-    time: FloatArray,
-    *,
-    bending: FloatArray,
-    rotation: FloatArray,
-    lever: FloatArray,
-) -> FloatArray:
-    """Return the modal coordinates (times, modes) of unit mass, over L.
-
-    They solve q̈ + (bending + θ̇² rotation) q = -θ̈ lever, with times in units of 1/√(EI/mL³).
-    """
-    scale = beam.frequency_scale
-
-    def derivative(t: float, state: FloatArray) -> FloatArray:
-        rate, acceleration = spin_up.rate(t / scale) / scale, spin_up.acceleration(t / scale)
-        q, q_dot = state.reshape(2, -1)
-        force = -(acceleration / scale**2) * lever - (bending + rate**2 * rotation) @ q
-        return np.concatenate((q_dot, force))
-
-    asked, back = np.unique(scale * time, return_inverse=True)
-    start = np.zeros(2 * lever.size)
-    with np.errstate(over="ignore", invalid="ignore"):
-        found = integrate.solve_ivp(
-            derivative, (0.0, asked[-1] or 1.0), start, t_eval=asked, method="DOP853",
-            rtol=_TOLERANCE, atol=1e-3 * _TOLERANCE,
-        )  # fmt: skip
-    if not found.success or not np.isfinite(found.y).all():
-        raise RuntimeError(
-            f"the linear model's deflection grows beyond all numbers before t = {time[-1]:g} s: "
-            "ask for earlier times"
-        )
-    return np.asarray(found.y[: lever.size, back].T)

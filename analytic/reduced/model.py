@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import overload
+from typing import Any
 
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..input_checks import finite_array, finite_number, not_negative, rotation_speed, whole_number
-from ..threads import one_thread
-from ..unit_blade import UNIFORM
-from .any_blade import blade_oscillator
-from .lagrangian import energy_coefficients
-from .model_range import amplitudes_within, better_model, warn_beyond_range
-from .normal_mode import NormalMode, normal_mode
+from ..beam import AnyBlade
+from ..input_checks import finite_array, finite_number, not_negative, whole_number
+from ..warning import warn
+from .any_blade import NormalMode, normal_mode
 from .oscillator import Oscillator, Perturbation
-from .variants import Variant, variant_named
+from .variants import Variant
 
 _NO_ORBIT = "Eq. 41 has no periodic orbit"
+_MEANT = {3: 0.2, 5: 0.4}
+"""Amplitudes up to which a model is meant, by its order: the paper's own bound, and FrM5's."""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -37,13 +33,6 @@ class ReducedModel:
     variant : Variant
     oscillator : Oscillator
         Eq. 41 with its coefficients, nondimensional.
-
-    Examples
-    --------
-    >>> from analytic import Beam, reduced_model
-    >>> model = reduced_model(Beam.reference(), 6.0, "FrM")
-    >>> print(f"{model.omega_n:.5f} rad/s, {model.frequency(0.2):.5f} rad/s at x = 0.2")
-    3.73075 rad/s, 3.72781 rad/s at x = 0.2
     """
 
     beam: AnyBlade
@@ -123,11 +112,7 @@ class ReducedModel:
             return self.perturbation.largest_amplitude
         return self.oscillator.largest_perturbed_amplitude
 
-    @overload
-    def frequency(self, a: float) -> float: ...
-    @overload
-    def frequency(self, a: Sequence[float] | FloatArray) -> FloatArray: ...
-    def frequency(self, a: ArrayLike) -> float | FloatArray:
+    def frequency(self, a: ArrayLike) -> Any:
         """Return ω_NL = ω_n (1 - λ_ω a²) [rad/s], Eq. 63, and of FrM5 with its -κ a⁴.
 
         Parameters
@@ -162,11 +147,7 @@ class ReducedModel:
         """Return the first harmonic of q/L that has the `peak`, of its shape: `peak` inverted."""
         return self.perturbation.first_harmonic(finite_array("peak", peak))
 
-    @overload
-    def exact_frequency(self, a: float) -> float: ...
-    @overload
-    def exact_frequency(self, a: Sequence[float] | FloatArray) -> FloatArray: ...
-    def exact_frequency(self, a: ArrayLike) -> float | FloatArray:
+    def exact_frequency(self, a: ArrayLike) -> Any:
         """Return the exact frequency of Eq. 41 [rad/s], by its first integral.
 
         Its distance from `frequency` is the error of the perturbation, of order a⁴. Parameters and
@@ -215,70 +196,23 @@ class ReducedModel:
         )
 
     def _within(self, a: ArrayLike, largest: float, beyond: str) -> FloatArray:
-        where = f"{beyond} at amplitude {{}} in {self.variant.name} at omega = {self.omega:g} rad/s"
-        return amplitudes_within(a, largest, where, self.variant.order)
-
-
-@one_thread
-def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
-    """Return a reduced model of the rotating beam, Eq. 41 with the coefficients of `variant`.
-
-    Parameters
-    ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s], zero or positive.
-    variant : str or Variant
-        "CI", "CE", "FrI", "FrE", "P3", "P4", "P5" of the paper, "FrC", "FrM" or "FrM5" of ours, or
-        any other setting of the switches. A blade that is not the paper's kind of beam takes ours.
-
-    Raises
-    ------
-    ValueError
-        If `omega` is negative or not finite, the variant unknown, or the model has no oscillation;
-        if the variant leaves out something that the blade has, such as damping.
-
-    Warns
-    -----
-    RotbeamWarning
-        If the model is used beyond its range: ω above 2ω_n without the other modes, 2ω_n near
-        another mode with them, or a beam so stocky or fast that FrM's missing extension shows. If ω
-        is above the burst speed, or so large that it may be meant in rpm.
-
-    Examples
-    --------
-    >>> from analytic import Beam, reduced_model
-    >>> model = reduced_model(Beam.reference(), omega=6.0, variant="FrE")
-    >>> round(model.omega_n, 6), round(model.lambda_omega, 5)
-    (3.730549, 0.02355)
-    """
-    omega = rotation_speed(omega)
-    if isinstance(variant, str):
-        variant = variant_named(variant)
-    require_undamped(beam, "the reduced models have no damping")
-    model = model_at(beam, omega, variant)
-    warn_if_rpm(beam, omega)
-    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega)
-    return model
-
-
-def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
-    """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
-    w_bar = omega / beam.frequency_scale
-    if variant.is_of_any_blade:
-        oscillator = blade_oscillator(beam.unit, w_bar, variant.coriolis).oscillator
-        return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
-    if beam.unit != UNIFORM:
-        raise ValueError(
-            f"{variant.name} is for the uniform beam clamped at the axis, and this blade has "
-            f"{beam.unit.differences}: take FrM"
-        )
-    energy = energy_coefficients(variant.shape_at(w_bar), variant.axial)
-    square = energy.omega_n_squared(w_bar, beam.slenderness)
-    if square <= 0.0:
-        raise ValueError(
-            f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
-            f"EI/(mL³) there; lower omega, or {better_model(w_bar)}"
-        )
-    oscillator = Oscillator(w_n=math.sqrt(square), g1=energy.g1(w_bar), g2=energy.g2)
-    return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
+        """Return amplitudes as floats; refuse negative ones, above 1, and from `largest` on."""
+        amplitude, order = finite_array("amplitude", a), self.variant.order
+        if amplitude.size == 0:
+            return amplitude
+        low, high = float(amplitude.min()), float(amplitude.max())
+        not_negative("amplitude", low, remedy="the phase, not the sign, turns the start around")
+        if high > 1.0:
+            raise ValueError(f"amplitude is the tip's over L and at most 1, got {high}: meters?")
+        if high >= largest:
+            raise ValueError(
+                f"{beyond} at amplitude {high:g} in {self.variant.name} at omega = "
+                f"{self.omega:g} rad/s: keep it below {largest:.6g}"
+            )
+        if high > _MEANT[order]:
+            bound = {3: "the paper's own bound for the reduced models", 5: "beyond which a⁶ counts"}
+            warn(
+                f"amplitude {high:g} is above {_MEANT[order]:g}, {bound[order]}; backbone_curve "
+                "and periodic_orbits go on for as long as there is an orbit"
+            )
+        return amplitude

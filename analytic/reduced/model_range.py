@@ -1,17 +1,23 @@
-"""Ranges of the reduced models, and warnings beyond them with the numbers that say so."""
+"""Reduced models of a blade: their ranges, with warnings beyond them, and where they soften."""
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import ArrayLike
+import math
+from collections.abc import Sequence
 
-from ..arrays import FloatArray
-from ..beam import AnyBlade
-from ..input_checks import finite_array, not_negative
+import numpy as np
+
+from ..beam import AnyBlade, Beam, require_planar, require_undamped, warn_if_rpm
+from ..input_checks import rotation_speed
+from ..lazily import optimize
+from ..threads import one_thread
 from ..unit_blade import UNIFORM
 from ..warning import warn
 from .any_blade import blade_oscillator
-from .variants import Variant
+from .lagrangian import energy_coefficients
+from .model import ReducedModel
+from .oscillator import Oscillator
+from .variants import Variant, variant_named
 
 _PAPER_SPEED_RATIO = 2.0
 """The paper ends at 8 rad/s, about twice ω_n there, and expects higher modes beyond (Sec. 6)."""
@@ -20,51 +26,105 @@ _NOTICEABLE_SHIFT = 2e-4
 """Shift of λ_ω by the extension: 1 % of its size, which is about 0.02 at rest and when fast."""
 _NOTICEABLE_STRETCH = 2e-3
 """Relative change of ω_n by the extension."""
-_FASTEST = 500.0
-"""w̄ up to which FrM and `periodic_orbits` have enough functions, of slender beams."""
+_HIGHEST_SPEED_RATIO = 4.0
 
 
-_MEANT = {3: 0.2, 5: 0.4}
-"""Amplitudes up to which a model is meant, by its order: the paper's own bound, and FrM5's."""
+@one_thread
+def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
+    """Return a reduced model of the rotating beam, Eq. 41 with the coefficients of `variant`.
 
+    Parameters
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s], zero or positive.
+    variant : str or Variant
+        "CI", "CE", "FrI", "FrE", "P3", "P4", "P5" of the paper, "FrC", "FrM" or "FrM5" of ours, or
+        any other setting of the switches. A blade that is not the paper's kind of beam takes ours.
 
-def amplitudes_within(a: ArrayLike, largest: float, beyond: str, order: int) -> FloatArray:
-    """Return amplitudes as floats; refuse negative ones, those above 1, and from `largest` on.
+    Raises
+    ------
+    ValueError
+        If `omega` is negative or not finite, the variant unknown, or the model has no oscillation;
+        if the variant leaves out something that the blade has, such as damping.
 
-    `beyond` is the sentence on an amplitude that is too large, with a place for it. Above the range
-    of a model of that `order` the caller's caller is warned.
+    Warns
+    -----
+    RotbeamWarning
+        If the model is used beyond its range: ω above 2ω_n without the other modes, 2ω_n near
+        another mode with them, or a beam so stocky or fast that FrM's missing extension shows. If ω
+        is above the burst speed, or so large that it may be meant in rpm.
+
+    Examples
+    --------
+    >>> from analytic import Beam, reduced_model
+    >>> model = reduced_model(Beam.reference(), omega=6.0, variant="FrE")
+    >>> round(model.omega_n, 6), round(model.lambda_omega, 5)
+    (3.730549, 0.02355)
     """
-    amplitude = finite_array("amplitude", a)
-    if amplitude.size == 0:
-        return amplitude
-    low, high = float(amplitude.min()), float(amplitude.max())
-    not_negative("amplitude", low, remedy="the phase, not the sign, turns the start around")
-    if high > 1.0:
-        raise ValueError(f"amplitude is the tip's over L and at most 1, got {high}: meters?")
-    if high >= largest:
-        raise ValueError(f"{beyond.format(f'{high:g}')}: keep it below {largest:.6g}")
-    if high > _MEANT[order]:
-        bound = {3: "the paper's own bound for the reduced models", 5: "beyond which a⁶ counts"}
-        warn(
-            f"amplitude {high:g} is above {_MEANT[order]:g}, {bound[order]}; backbone_curve and "
-            f"periodic_orbits go on for as long as there is an orbit"
+    omega, variant = rotation_speed(omega), variant_named(variant)
+    require_undamped(beam, "the reduced models have no damping")
+    model = model_at(beam, omega, variant)
+    warn_if_rpm(beam, omega)
+    warn_beyond_range(model)
+    return model
+
+
+def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
+    """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
+    w_bar = omega / beam.frequency_scale
+    if variant.is_of_any_blade:
+        oscillator = blade_oscillator(beam.unit, w_bar, variant.coriolis).oscillator
+        return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
+    if beam.unit != UNIFORM:
+        raise ValueError(
+            f"{variant.name} is for the uniform beam clamped at the axis, and this blade has "
+            f"{beam.unit.differences}: take FrM"
         )
-    return amplitude
+    energy = energy_coefficients(variant.shape_at(w_bar), variant.axial)
+    square = energy.omega_n_squared(w_bar, beam.slenderness)
+    if square <= 0.0:
+        raise ValueError(
+            f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
+            "EI/(mL³) there; lower omega, or take FrM"
+        )
+    oscillator = Oscillator(w_n=math.sqrt(square), g1=energy.g1(w_bar), g2=energy.g2)
+    return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
 
 
-def better_model(w_bar: float) -> str:
-    """Return what goes further than a one-mode model at w̄, as the end of a sentence."""
-    return "take FrM" if w_bar <= _FASTEST else "rotate slower"
+def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
+    """Return the speed [rad/s] at which the model turns from hardening to softening.
+
+    FrM, and with it the exact inextensible beam, does so at Ω = ω/ω0 = 1.02190; the exact
+    extensible one a little earlier, the paper's at 2.97214 rad/s or Ω = 1.02162. None if λ_ω does
+    not rise through zero up to Ω = 4: such a model softens, or hardens, at every speed of interest.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> from analytic.reduced.model_range import softening_speed
+    >>> print(f"{softening_speed(Beam.reference(), 'FrM'):.4f} rad/s")
+    2.9730 rad/s
+    """
+    require_planar(beam)
+    setting = variant_named(variant)
+
+    def lambda_omega(speed_ratio: float) -> float:
+        return model_at(beam, speed_ratio * beam.omega_0, setting).lambda_omega
+
+    speeds = np.linspace(0.0, _HIGHEST_SPEED_RATIO, 21)
+    softens = np.array([lambda_omega(s) > 0.0 for s in speeds])
+    turns = np.flatnonzero(~softens[:-1] & softens[1:])
+    if turns.size == 0:
+        return None
+    first = turns[0]
+    ratio = optimize.brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12)
+    return float(ratio) * beam.omega_0
 
 
-def warn_beyond_range(
-    beam: AnyBlade,
-    omega: float,
-    variant: Variant,
-    w_n: float,
-    lambda_omega: float,
-) -> None:
-    """Warn where modes or extension that `variant` leaves out matter, or modes are resonant."""
+def warn_beyond_range(model: ReducedModel) -> None:
+    """Warn where modes or extension that a model leaves out matter, or modes are resonant."""
+    beam, omega, variant = model.beam, model.omega, model.variant
     scale = beam.frequency_scale
     w_bar = omega / scale
     if omega >= beam.burst_speed:
@@ -74,23 +134,19 @@ def warn_beyond_range(
             f"about a steady state that the beam does not have; rotate slower"
         )
     elif variant.coriolis:
-        _warn_if_extended(beam, w_bar, lambda_omega)
+        _warn_if_extended(beam, w_bar, model.lambda_omega)
         others = blade_oscillator(beam.unit, w_bar, True).others
-        warn_if_resonant(w_n * scale, scale * np.array(others))
+        warn_if_resonant(model.omega_n, [scale * other for other in others])
     elif beam.unit == UNIFORM and omega > _PAPER_SPEED_RATIO * beam.omega_0:
-        # The rotating beam's first frequency is never below ω0, so it is needed only here. Beyond
-        # what its basis resolves, the values there are lower bounds, of the ratio as well.
-        at = min(w_bar, _FASTEST)
-        mode = blade_oscillator(UNIFORM, at, False)
+        # The rotating beam's first frequency is never below ω0, so it is needed only here.
+        mode = blade_oscillator(UNIFORM, w_bar, False)
         first, second = scale * mode.oscillator.w_n, scale * mode.others[0]
-        if at * scale > _PAPER_SPEED_RATIO * first:
-            more, above = ("more than ", "above ") if w_bar > at else ("", "")
+        if omega > _PAPER_SPEED_RATIO * first:
             warn(
-                f"omega = {omega:g} rad/s is {more}{at * scale / first:.2f} times the rotating "
-                f"beam's first frequency ({above}{first:.4g} rad/s): beyond "
-                f"{_PAPER_SPEED_RATIO:g}, where the paper ends, the second mode ({above}"
-                f"{second:.4g} rad/s), which {variant.name} leaves out, matters; "
-                f"{better_model(w_bar)}"
+                f"omega = {omega:g} rad/s is {omega / first:.2f} times the rotating beam's first "
+                f"frequency ({first:.4g} rad/s): beyond {_PAPER_SPEED_RATIO:g}, where the paper "
+                f"ends, the second mode ({second:.4g} rad/s), which {variant.name} leaves out, "
+                "matters; take FrM"
             )
 
 
@@ -109,12 +165,12 @@ def _warn_if_extended(beam: AnyBlade, w_bar: float, lambda_omega: float) -> None
         )
 
 
-def warn_if_resonant(omega_n: float, others: ArrayLike) -> None:
+def warn_if_resonant(omega_n: float, others: Sequence[float]) -> None:
     """Warn where 2ω_n comes within 10 % of one of the `others` [rad/s]: FrM divides by the gap.
 
     A uniform cantilever never gets there: its ω_2 stays above 3 times 2ω_n at any rotation speed.
     """
-    for other in np.atleast_1d(np.asarray(others, dtype=np.float64)):
+    for other in others:
         gap = other / (2.0 * omega_n) - 1.0
         if abs(gap) < _RESONANCE_BAND:
             warn(

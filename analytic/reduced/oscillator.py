@@ -95,11 +95,9 @@ class Oscillator:
         return x, -a * np.sin(psi) * np.sqrt(stiffness / (1.0 + self.g2 * x**2))
 
     def _midpoints(self, square: float) -> int:
-        """Midpoints on a quarter period that bring the error exp(-4 n y) below round-off.
-
-        y is the distance from the real axis of the nearest ψ where, at a² = `square`, the inertia
-        or the stiffness under the root vanishes: where sin²ψ is one of two values outside [0, 1].
-        """
+        """Midpoints on a quarter period that bring the error exp(-4 n y) below round-off."""
+        # y is the distance from the real axis of the nearest ψ where inertia or stiffness under
+        # the root vanish at a² = `square`: where sin²ψ is one of two values outside [0, 1].
         if square < 1e-30:
             return 1
         zeros = []

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import sympy as sp  # type: ignore[import-untyped]
 
-from .axial import Axial, AxialModel, axial_model
+from .lagrangian import Axial, AxialModel, axial_model
 from .shapes import PolynomialShape
 
 OMEGA = sp.Symbol("Omega", nonnegative=True)
@@ -126,41 +127,23 @@ def _antiderivative(f: sp.Expr) -> sp.Expr:
     return sp.integrate(sp.expand(f), X)
 
 
-@dataclass(frozen=True, kw_only=True)
-class TimeScales:
-    """Solution of Eq. 41 by multiple time scales, in the symbols ω_n, g1, g2 and a of this module.
+class TimeScales(NamedTuple):
+    """ω_NL = ω_n (1 - λ_ω a²), Eq. 64, and x = a cos ψ - λ_x a³ cos 3ψ, Eq. 65."""
 
-    Parameters
-    ----------
-    amplitude_condition, phase_condition : sympy.Expr
-        The solvability conditions, Eqs. 56 and 57; both are zero.
-    forcing : sympy.Expr
-        Coefficient of cos 3ψ on the right of Eq. 60, per a³.
-    lambda_omega : sympy.Expr
-        λ_ω of Eq. 64: ω_NL = ω_n (1 - λ_ω a²).
-    lambda_x : sympy.Expr
-        λ_x of Eq. 65: x = a cos ψ - λ_x a³ cos 3ψ.
-    """
-
-    amplitude_condition: sp.Expr
-    phase_condition: sp.Expr
-    forcing: sp.Expr
     lambda_omega: sp.Expr
     lambda_x: sp.Expr
 
 
 @cache
 def multiple_time_scales() -> TimeScales:
-    """Derive λ_ω and λ_x from Eq. 41.
+    """Derive λ_ω and λ_x of Eq. 41, in the symbols ω_n, g1 and g2 of this module.
 
     Corrected: Eq. 60 is of order ε, and since Eq. 61 has no homogeneous part the response starts
     from x(0) = a(1 - λ_x a²), not from the initial value Eq. 53 asks for.
     """
     # Eq. 55, and the third harmonic of Eq. 61 with its amplitude b unknown.
     b = sp.Symbol("b", real=True)
-    x_0 = A / 2 * (_Z + 1 / _Z)
-    x_1 = b / 2 * (_Z**3 + 1 / _Z**3)
-    x = x_0 + _EPSILON * x_1
+    x = A / 2 * (_Z + 1 / _Z) + _EPSILON * b / 2 * (_Z**3 + 1 / _Z**3)
 
     # Eqs. 48 and 49, and the residual of Eq. 51.
     velocity = _total_derivative(x)
@@ -171,17 +154,10 @@ def multiple_time_scales() -> TimeScales:
         raise AssertionError("Eq. 55 does not solve Eq. 52")
     order_1 = sp.expand(residual.coeff(_EPSILON, 1))
 
-    # Eqs. 56 and 57: nothing on the right of Eq. 53 may resonate.
-    secular = sp.expand(order_1.coeff(_Z, 1))
-    phase_condition = -sp.re(secular)
-    phase_rate = sp.solve(phase_condition, PHI_PRIME)[0]
-
-    third = order_1.coeff(_Z, 3)
-    amplitude = sp.solve(third, b)[0]
+    # Eqs. 56 and 57: nothing on the right of Eq. 53 may resonate, so that a' = 0.
+    phase_rate = sp.solve(sp.re(sp.expand(order_1.coeff(_Z, 1))), PHI_PRIME)[0]
+    amplitude = sp.solve(order_1.coeff(_Z, 3), b)[0]
     return TimeScales(
-        amplitude_condition=sp.im(secular) / OMEGA_N,
-        phase_condition=sp.expand(phase_condition),
-        forcing=sp.expand(-2 * third.subs(b, 0) / A**3),
         lambda_omega=sp.expand(-phase_rate / (OMEGA_N * A**2)),
         lambda_x=sp.expand(-amplitude / A**3),
     )

@@ -22,9 +22,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..input_checks import flag
-from .axial import Axial, axial_model
-from .rotating_mode import rotating_mode
-from .shapes import CantileverMode, Shape, static_deflection
+from .lagrangian import Axial, axial_model
+from .shapes import CantileverMode, Shape, rotating_mode, static_deflection
 
 _MODES: dict[str, Callable[[float], Shape]] = {
     "cantilever": lambda _: CantileverMode(),
@@ -44,7 +43,7 @@ class Variant:
         One of the two modes, or a shape that does not depend on the speed, as
         `static_deflection(3)`.
     axial : str
-        One of `axial.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
+        One of `lagrangian.AXIAL_MODELS`; "none" is the linear model, Eq. 45.
     coriolis : bool
         Whether the other bending modes are eliminated to cubic order; rotating mode and consistent
         foreshortening only.
@@ -110,8 +109,10 @@ VARIANTS: dict[str, Variant] = {
 }
 
 
-def variant_named(name: str) -> Variant:
-    """Return the variant of that name, refusing others with a list of them."""
+def variant_named(name: str | Variant) -> Variant:
+    """Return a variant, or that of the name, refusing others with a list of them."""
+    if isinstance(name, Variant):
+        return name
     if name not in VARIANTS:
         raise ValueError(f"variant must be one of {', '.join(VARIANTS)}, got {name!r}")
     return VARIANTS[name]

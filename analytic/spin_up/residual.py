@@ -11,23 +11,32 @@ and after the ramp q = -Im Z exp(iω_n(t - T)). Damping takes its share of every
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, overload
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, require_planar
+from ..blade_functions import blade_functions
 from ..exact.driven.response import spin_up_response
 from ..exact.linear.modes import linear_modes
-from ..input_checks import finite_array, flag, positive, whole_number
+from ..input_checks import finite_array, flag, positive
 from ..lazily import interpolate
 from ..motion import SpeedChange, require_ramp
 from ..quadrature import gauss_points, integrals_from_clamp
 from ..reduced.any_blade import blade_oscillator
 from ..threads import one_thread
-from .modes import ModesOverSpeed, modes_over_speed
+from ..unit_blade import UnitBlade
 
+_SETTLED = 1e-8
+"""Share of the last coefficients of an interpolation that has settled."""
+_FEWEST, _MOST = 17, 257
+_FUNCTIONS = 20
+"""Twice as many as the modes in use, and four √w̄ more for the layer at the clamp."""
 _POINTS = 24
 _DURING = 193  # instants of the ramp
 _A_PANEL = 12.0  # [rad] of the phase on 24 points
@@ -35,38 +44,81 @@ _LARGEST = 1.2
 """Amplitude up to which the action of the backbone is taken."""
 
 
-@overload
-def residual_amplitude(
-    beam: AnyBlade,
-    spin_up: SpeedChange,
-    ramp_times: None = None,
-    *,
-    mode: int = 1,
-    corrected: bool = False,
-    exact: bool = False,
-    tolerance: float = 1e-6,
-) -> float: ...
-@overload
-def residual_amplitude(
-    beam: AnyBlade,
-    spin_up: SpeedChange,
-    ramp_times: ArrayLike,
-    *,
-    mode: int = 1,
-    corrected: bool = False,
-) -> FloatArray: ...
+class ModesAt(NamedTuple):
+    """Modes of unit mass at speeds w̄, each (modes, speeds), nondimensional.
+
+    The natural frequency, the force of the Euler acceleration -θ̈ on the mode over -θ̈, the tip's
+    deflection (positive), and the rate at which damping takes the amplitude.
+    """
+
+    frequency: FloatArray
+    force: FloatArray
+    tip: FloatArray
+    decay: FloatArray
+
+
+@dataclass(frozen=True)
+class ModesOverSpeed:
+    """Chebyshev series of the modes from standstill to the speed w̄ = `top`."""
+
+    top: float
+    coefficients: FloatArray = field(repr=False)
+
+    def at(self, w: FloatArray) -> ModesAt:
+        """Return the modes at speeds `w`, (speeds,), whose sign does not matter.
+
+        Beyond the top they are those at the top.
+        """
+        inside = np.minimum(2.0 * np.abs(w) / self.top - 1.0, 1.0)
+        values = chebyshev.chebval(inside, self.coefficients)
+        return ModesAt(*np.asarray(values))
+
+
+@lru_cache(maxsize=64)
+def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed:
+    """Return the first `count` modes for speeds w̄ from 0 to `top`."""
+    functions = max(_FUNCTIONS, 2 * count + 8) + math.ceil(4.0 * math.sqrt(top))
+    of = blade_functions(blade, functions)
+    x, dx = blade.quadrature(2 * (of.across.a_panel + 4))
+    along = of.across.twice(x)
+    viscosity, _, air = blade.damping
+    damping = viscosity * of.bending + air * along.T @ (dx[:, None] * along)
+
+    def solve(w: float) -> FloatArray:
+        """Return the modes at w̄, (quantities, modes) in the order of `ModesAt`."""
+        frequencies, modes = of.modes(w, count)
+        decay = 0.5 * np.sum(modes * (damping @ modes), axis=0)
+        return np.stack([frequencies, blade.setting * of.euler @ modes, of.tip @ modes, decay])
+
+    points = _FEWEST
+    while True:
+        nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)
+        values = np.array([solve(0.5 * top * (1.0 + x)) for x in nodes])
+        flat = values.reshape(points, -1)
+        coefficients = chebyshev.chebfit(nodes, flat, points - 1)
+        size = np.abs(flat).max(axis=0) + np.finfo(float).tiny
+        rest = float((np.abs(coefficients[-2:]).max(axis=0) / size).max())
+        if rest < _SETTLED:
+            return ModesOverSpeed(top, coefficients.reshape(values.shape))
+        if points >= _MOST:
+            raise ValueError(
+                f"the modes up to w̄ = {top:.4g} do not settle over the speed with {points} "
+                f"speeds ({rest:.1e}): take fewer modes, or a lower speed"
+            )
+        points = 2 * points - 1
+
+
 @one_thread
 def residual_amplitude(
     beam: AnyBlade,
     spin_up: SpeedChange,
     ramp_times: ArrayLike | None = None,
     *,
-    mode: int = 1,
     corrected: bool = False,
     exact: bool = False,
     tolerance: float = 1e-6,
-) -> FloatArray | float:
-    """Return the amplitude over L with which the tip swings after a change of the speed.
+) -> Any:
+    """Return the amplitude over L of the tip's first mode after a change of the speed.
 
     Linear theory of the inextensible blade, adiabatic in the speed. Against the exact transient
     of the paper's 24 spin-ups it is 1 to 5 % high up to a = 0.36, 10 % at 0.6, 26 % at 0.84.
@@ -77,10 +129,8 @@ def residual_amplitude(
     spin_up : SpinUp, FourierRamp or SpeedTable
     ramp_times : array_like, optional
         Durations [s] of the same motion, stretched in time; otherwise its own.
-    mode : int
-        Bending mode, from 1.
     corrected : bool
-        Take the linear action for the action of the nonlinear orbit (FrM, Eq. 41), first mode only:
+        Take the linear action for the action of the nonlinear orbit (FrM, Eq. 41):
         1 to 3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
     exact : bool
         Take half peak to peak of the tip in the first period after the exact transient, all modes
@@ -102,24 +152,22 @@ def residual_amplitude(
     >>> print(f"{residual_amplitude(beam, spin_up, exact=True):.4f} L by the exact transient")
     0.1655 L by the exact transient
     """
-    mode = whole_number("mode", mode)
-    if flag("corrected", corrected) and mode != 1:
-        raise ValueError(f"corrected=True knows the backbone of mode 1, got mode={mode}")
     require_planar(beam)
     require_ramp(spin_up)
+    corrected = flag("corrected", corrected)
     if flag("exact", exact):
-        if ramp_times is not None or corrected or mode != 1:
+        if ramp_times is not None or corrected:
             raise ValueError(
                 "exact=True is of the motion's own ramp time and of all modes: leave out "
-                "ramp_times, mode and corrected"
+                "ramp_times and corrected"
             )
         return _exact(beam, spin_up, tolerance)
     times = np.asarray(spin_up.ramp_time if ramp_times is None else ramp_times)
     times = finite_array("ramp_times", times, "s")
     for T in times.ravel()[times.ravel() <= 0.0]:
         positive("ramp_times", T, "s")
-    modes = modes_for(beam, spin_up, mode)
-    left = np.abs(residuals(beam, spin_up, modes, times.ravel())[mode - 1]).reshape(times.shape)
+    modes = modes_for(beam, spin_up, 1)
+    left = np.abs(residuals(beam, spin_up, modes, times.ravel())[0]).reshape(times.shape)
     if corrected:
         left = _on_the_backbone(beam, spin_up.omega, left)
     return float(left) if ramp_times is None else left

@@ -10,12 +10,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
 from blocks import names, printed
 from docutils import nodes
 from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
+
+from rotbeam_exu.figures import STYLE
 
 
 class Computed(SphinxDirective):
@@ -34,7 +37,8 @@ class Computed(SphinxDirective):
             return [code]
         namespace = self.env.temp_data.setdefault("computed", names(Path(self.env.srcdir)))
         try:
-            output = printed(text, namespace, where)
+            with mpl.rc_context(STYLE):
+                output = printed(text, namespace, where)
         except Exception as error:
             raise ExtensionError(f"{where}: {type(error).__name__}: {error}") from error
         if "show" not in self.options:

@@ -42,7 +42,6 @@ GROUPS = (
         analytic__exact__linear__modes="LinearModes",
         analytic__exact__linear__campbell="Campbell",
         analytic__exact__linear__tracking="Crossing",
-        analytic__exact__linear__unstretched="unstretched_frequencies",
         analytic__exact__space__modes="SpaceModes",
     ),
     _group(
@@ -69,7 +68,7 @@ GROUPS = (
         "The transient, exact and linear; the residual vibration, and ramps that avoid it.",
         analytic="spin_up_response residual_amplitude quiet_ramp_times design_ramp linear_response",
         analytic__exact__driven__response="SpinUpResponse",
-        analytic__exact__beam__section_loads="SectionLoads",
+        analytic__exact__beam__state="SectionLoads",
         analytic__spin_up__quiet="QuietRamps",
         analytic__reduced__linear_frame="LinearResponse",
     ),
@@ -85,7 +84,7 @@ GROUPS = (
         "The models of the paper, and improved ones.",
         analytic="reduced_model VARIANTS Variant paper_table",
         analytic__reduced__model="ReducedModel",
-        analytic__reduced__speeds="softening_speed divergence_speed",
+        analytic__reduced__model_range="softening_speed",
     ),
     _group(
         "Exudyn",

@@ -16,6 +16,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
 from blocks import save
 from derivation import modules
 from docutils import nodes
@@ -23,6 +24,8 @@ from reference_groups import DATA, page_of, public_names, role_of
 from sphinx.application import Sphinx
 from sphinx.pycode import ModuleAnalyzer
 from sphinx.util.nodes import make_refnode
+
+from rotbeam_exu.figures import STYLE
 
 FOLDER = "reference/api"
 """Of the pages, below the site's root; written anew at each build."""
@@ -61,7 +64,7 @@ def drawing(name: str) -> Any:
     if ".plot(" not in source:
         return None
     names: dict[str, Any] = {}
-    with contextlib.redirect_stdout(io.StringIO()):
+    with contextlib.redirect_stdout(io.StringIO()), mpl.rc_context(STYLE):
         exec(compile(source, name, "exec"), names)
     return next(value for value in names.values() if hasattr(value, "get_figure"))
 

@@ -23,10 +23,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from analytic.arrays import ComplexArray, FloatArray
-from rotbeam_exu.verification.case_rows import cases_csv
 from rotbeam_exu.verification.cases import CASES, Case
 from rotbeam_exu.verification.judgement import Judgement, judged
-from rotbeam_exu.verification.kit import STATIC
+from rotbeam_exu.verification.kit import STATIC, cases_csv
 from rotbeam_exu.verification.submission import Declaration, Row, Run, Submission
 from rotbeam_exu.verification.submission_files import (
     digests,

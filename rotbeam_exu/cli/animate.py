@@ -13,7 +13,7 @@ from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
 from ..files.results import load, whole_file
-from ..files.vtk import save_vtk
+from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import require_writable
 from .motion import (
@@ -65,7 +65,7 @@ def animate(
         Show a run in place of the exact beam: the file of `rotbeam run --stations`.
     height
         Height of a rectangular section, in the plane of bending [m]. With `--width` a .pvd has a
-        body with the strain in its corners, else a line.
+        body with the strain in its corners, without both a line.
     width
         Its width [m].
     out
@@ -112,6 +112,7 @@ def animate(
     from ..datasets import dataset_of
     from ..figures import animation
 
+    corners(height, width)
     if target.suffix != ".pvd":
         animation.check_format(target)
     require_writable(target, force=force)

@@ -1,4 +1,4 @@
-"""`rotbeam compare`: the data of Figures 14 and 15 and where each error comes from."""
+"""`rotbeam compare`: the data of Figures 14 and 15, and where each model's error comes from."""
 
 from __future__ import annotations
 
@@ -6,26 +6,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from analytic import AnyBlade, Beam
 
 from .. import paper
 from ..fem.lazily import require_exudyn
-from ..files.results import writable_folder
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
-from .job import refuse_to_replace, saved
-from .motion import (
-    ChosenMotion,
-    chosen_speeds,
-    chosen_times,
-    configured,
-    grid_motion,
-    motion_of,
-)
+from .job import Job, refuse_to_replace
+from .motion import ChosenMotion, chosen_speeds, chosen_times, configured, grid_motion, motion_of
 from .options import RESULTS, WORKERS, Results, Workers
-from .output import formatted, print_columns, print_note, print_written
+from .output import formatted, print_columns
 
 
 def compare(
@@ -55,17 +45,15 @@ def compare(
     from .. import comparison
 
     require_exudyn()
-    folder = writable_folder(results.out)
     file = configured(config)
     beam = _uniform(file.beam)
     mine = {} if config is None else beam_attributes(beam)
     omegas = chosen_speeds(beam, *paper.SPEEDS)
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
     models = comparison.model_budget(beam, omegas=omegas, amplitudes=(amplitude,))
-    models = models.assign_attrs(mine)
-    refuse_to_replace(models, folder / "budget_models.nc", force=results.force)
-    motion = _even(grid_motion(beam, omegas, ramp_times))
-    main = motion_of(file)
+    path = results.out / "budget_models.nc"
+    refuse_to_replace(models.assign_attrs(mine), path, force=results.force)
+    motion, main = _even(grid_motion(beam, omegas, ramp_times)), motion_of(file)
     with workers.counted("spin-ups") as progress:
         options: dict[str, Any] = {
             "omegas": omegas, "ramp_times": ramp_times, "duration": motion.duration,
@@ -78,14 +66,17 @@ def compare(
                 duration=main.duration, step=main.step,
             ),
             "budget_models": models,
-            "budget_finite_elements": comparison.finite_element_budget(beam, **options),
         }  # fmt: skip
-    written: list[Path] = []
     for name, table in data.items():
-        written += saved(table.assign_attrs(mine), folder / name)
+        _write(table.assign_attrs(mine), name, results)
     _print_models(models, amplitude)
-    _print_elements(data["budget_finite_elements"], motion.step)
-    print_written(written)
+
+
+def _write(data: xr.Dataset, name: str, results: Results) -> None:
+    Job(
+        path=results.out / name, inputs=data, force=results.force, compute=lambda: data,
+        show=lambda *_: None,
+    ).run()  # fmt: skip
 
 
 def _uniform(beam: AnyBlade) -> Beam:
@@ -108,32 +99,10 @@ def _even(motion: ChosenMotion) -> ChosenMotion:
 def _print_models(models: xr.Dataset, amplitude: float) -> None:
     for omega in models["omega"].to_numpy():
         here = models.sel(omega=omega, a=amplitude)
-        sources = here["source"].to_numpy().tolist()
-        rows: dict[str, list[str]] = {"source": [*sources, "total"]}
-        for model in here["model"].to_numpy():
-            one = here.sel(model=model)
-            errors = [*one["error"].to_numpy(), one["total"].item()]
-            rows[str(model)] = formatted(errors, "+.1e")
+        errors = here["error"].to_pandas().T
+        errors.loc["total"] = here["total"].to_pandas()
+        columns = {model: formatted(errors[model], "+.1e") for model in errors}
         print_columns(
-            rows,
+            {"source": list(errors.index), **columns},
             title=f"(ω_NL - exact)/ω_n at ω = {omega:g} rad/s, a = {amplitude:g}",
         )
-
-
-def _print_elements(elements: xr.Dataset, step: float) -> None:
-    frame = elements["error"].to_series().unstack("source").reset_index()
-    print_columns(
-        {
-            "ω [rad/s]": frame["omega"].tolist(),
-            "T [s]": frame["ramp_time"].tolist(),
-            **{
-                str(source): formatted(frame[source], "+.1e")
-                for source in elements["source"].to_numpy()
-            },
-        },
-        title=(
-            f"16 elements, {1e3 * step:g} ms: distance from the exact ω_NL/ω_n at its amplitude"
-        ),
-    )
-    if np.isnan(elements["error"]).any():
-        print_note("-: the amplitude is above 0.6, where the budget ends")

@@ -9,7 +9,7 @@ import analytic
 from analytic import Beam, SpinUp
 
 from ..fem.lazily import require_exudyn
-from ..runs.versions import versions
+from ..runs.attributes import versions
 from .output import print_text
 
 

@@ -15,7 +15,8 @@ from ..report.document import SCHEMA, Record, document
 from ..report.page import TITLE, report_page
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import judged
-from ..verification.mistakes import Mistake, mistakes_in
+from ..verification.mistakes import mistakes_in
+from ..verification.mistakes.mistake import Mistake
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable

@@ -11,7 +11,7 @@ from numpy.linalg import norm
 from analytic import Beam, periodic_orbits, reduced_model
 from analytic.exact.plane.growth import planar_note
 
-from ..fem.frame import Frame
+from ..fem.lazily import Frame
 from ..labels import AMPLITUDE, OMEGA, dataset, labeled
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
@@ -109,13 +109,13 @@ def _numerics(mesh: Mesh) -> str:
     return f"{elements} cable elements, {frame} frame, {steps}"
 
 
-def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = True) -> xr.Dataset:
+def fitted_softening(points: xr.Dataset, *, below: float = 0.4) -> xr.Dataset:
     """λ_ω of each speed by least squares: ratio = 1 - λ_ω a² (- κ a⁴) for a < `below`.
 
     Returns
     -------
     Dataset
-        `lambda_omega` and `quartic` κ [-] over omega; κ is zero unless asked for.
+        `lambda_omega` and `quartic` κ [-] over omega.
         `lambda_omega_error`: the points' own errors, plus the standard error by their scatter.
     """
     found = []
@@ -123,7 +123,7 @@ def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = 
         here = points.sel(omega=omega)
         inside = (here["amplitude"] < below).to_numpy()
         square = here["amplitude"].to_numpy()[inside] ** 2
-        columns = np.stack([square, square**2] if quartic else [square], axis=1)
+        columns = np.stack([square, square**2], axis=1)
         drop = 1.0 - here["ratio"].to_numpy()[inside]
         inverse = np.linalg.pinv(columns)
         solution = inverse @ drop
@@ -131,7 +131,7 @@ def fitted_softening(points: xr.Dataset, *, below: float = 0.4, quartic: bool = 
         scatter = np.sum((drop - columns @ solution) ** 2) / free if free > 0 else np.nan
         # Errors of step and mesh have one sign at all points of a speed: no square root of a sum.
         own = np.abs(inverse[0]) @ here["ratio_error"].to_numpy()[inside]
-        found.append([*np.pad(solution, (0, 2))[:2], own + np.sqrt(scatter) * norm(inverse[0])])
+        found.append([*solution, own + np.sqrt(scatter) * norm(inverse[0])])
     values = np.array(found)
     return dataset(
         {

@@ -22,9 +22,9 @@ from ..fem.case import RunCase
 from ..fem.linearization import natural_frequencies
 from ..labels import dataset
 from ..lazily import xr
+from ..runs.attributes import versions
 from ..runs.check import SimulationError
-from ..runs.versions import versions
-from ..sweeps.cache import cache_of
+from ..sweeps.cases import cache_of
 from ..sweeps.grid import solved
 from ..verification.convergence import converged
 from ..verification.judgement import FLOOR
@@ -116,7 +116,7 @@ def refinement(
                 ("mesh", "mode"), np.transpose([one.errors for one in modes]),
                 "relative error by the fit",
             ),
-            "frequency_bar": (
+            "frequency_uncertainty": (
                 "mode", [one.bar for one in modes], "relative uncertainty of the limit"
             ),
             "frequency_order": (
@@ -129,7 +129,7 @@ def refinement(
             "in_mesh": ("run", runs.in_mesh, "part of the mesh in it"),
             "in_step": ("run", runs.in_step, "part of the step in it"),
             "exact_error": ("run", off, "distance of q(t) from the exact one, the same way"),
-            "bar": ((), runs.bar, "uncertainty of the limit of q(t)"),
+            "uncertainty": ((), runs.bar, "uncertainty of the limit of q(t)"),
             "order": ((), runs.orders["mesh"].value, "observed order of q(t) in the mesh"),
             "order_in_step": ((), runs.orders["step"].value, "observed order in the step"),
             "recommended_elements": ((), math.ceil(max(needed)), "elements for the tolerance"),

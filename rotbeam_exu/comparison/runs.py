@@ -71,7 +71,7 @@ def figure_3(
     return data
 
 
-def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int = 3) -> xr.Dataset:
+def figure_4() -> xr.Dataset:
     """Steady orbits in the normalization of Eqs. 15, 17 and 18, three elements (Fig. 4).
 
     Returns
@@ -82,12 +82,12 @@ def figure_4(beam: Beam | None = None, *, element: str = "cable", elements: int 
         ramp, and a shorter steady phase is filled with NaN. `smear` over case: the largest velocity
         that no harmonic of the orbit's frequency explains over the largest, what other modes do.
     """
-    beam = beam or Beam.reference()
+    beam = Beam.reference()
 
     @functools.cache
     def orbit(omega: float, ramp_time: float) -> xr.Dataset:
         spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
-        run = simulate(beam, spin_up, element=element, elements=elements)
+        run = simulate(beam, spin_up, elements=3)
         steady = run.where(run["time"] >= ramp_time, drop=True)
         q_bar = steady["q"].data / reference_displacement(beam, spin_up)
         q_dot_bar = steady["q_dot"].data / reference_velocity(beam, spin_up)
@@ -233,13 +233,7 @@ def _from_the_peak(
 
 
 def _from_exact_peak(backbone: Orbits, time: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return x = q/L and dx/dt [1/s] of the first orbit from its peak, by periodic splines."""
-    x, rate = backbone.orbit(0, 401)
-    period = 2.0 * np.pi / backbone.frequency[0]
-    samples = np.linspace(0.0, period, x.size)
-    at = (backbone.peak_time[0] + time) % period
-    ends = [np.append(v[:-1], v[0]) for v in (x, rate * backbone.beam.frequency_scale)]
-    first, second = (
-        np.asarray(interpolate.CubicSpline(samples, v, bc_type="periodic")(at)) for v in ends
-    )
-    return first, second
+    """Return x = q/L and dx/dt [1/s] of the first orbit from its peak."""
+    sines, orders = backbone.harmonics[0], np.arange(1, backbone.harmonics.shape[1] + 1)
+    phases = np.outer(backbone.frequency[0] * (backbone.peak_time[0] + time), orders)
+    return np.sin(phases) @ sines, backbone.frequency[0] * np.cos(phases) @ (orders * sines)

@@ -1,4 +1,4 @@
-"""Data of Figures 8 to 13: the reduced models by themselves."""
+"""Data of Figures 8 to 13, the reduced models by themselves, and the budget of their errors."""
 
 from __future__ import annotations
 
@@ -6,19 +6,24 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
-from analytic import Beam, periodic_orbits, reduced_model
+from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.lazily import interpolate
-from analytic.reduced.rotating_mode import converged_degree, rotating_frequency, rotating_mode
-from analytic.reduced.shapes import CantileverMode
+from analytic.reduced.shapes import (
+    CantileverMode,
+    converged_degree,
+    rotating_frequency,
+    rotating_mode,
+)
 
-from ..labels import OMEGA, dataset
+from ..labels import AMPLITUDE, OMEGA, dataset
 from ..lazily import xr
-from ..paper import SPEEDS
+from ..paper import MODELS, SPEEDS
 from ..runs.attributes import beam_attributes
 
 _SMALL = 0.03
@@ -39,7 +44,7 @@ def beyond_range() -> Iterator[None]:
         yield
 
 
-def figure_8(beam: Beam | None = None) -> xr.Dataset:
+def figure_8() -> xr.Dataset:
     """Backbones of CI at Ω = 0, 1 and ∞, between which all others lie, and exact ones (Fig. 8).
 
     Returns
@@ -48,7 +53,7 @@ def figure_8(beam: Beam | None = None) -> xr.Dataset:
         `ratio` over (speed_ratio, amplitude), by Eq. 63; the last speed ratio, 1000, stands for ∞.
         `exact` over (exact_speed_ratio, exact_amplitude), at Ω = 0, 1 and 10.
     """
-    beam = beam or Beam.reference()
+    beam = Beam.reference()
     amplitude = np.linspace(0.0, 0.4, 81)
     peaks = np.linspace(0.0, 0.4, 9)
     speed_ratios, exact_ratios = [0.0, 1.0, 1000.0], [0.0, 1.0, 10.0]
@@ -72,34 +77,32 @@ def figure_8(beam: Beam | None = None) -> xr.Dataset:
     )
 
 
-def figure_9(beam: Beam | None = None) -> xr.Dataset:
+def figure_9() -> xr.Dataset:
     """λ_ω and λ_x of CI, and of the exact beam, against Ω (Fig. 9)."""
-    beam = beam or Beam.reference()
+    beam = Beam.reference()
     speed_ratio = np.linspace(0.0, 10.0, 201)
     models = {"CI": (beam, "CI")}
     return _coefficients(beam, models, "speed_ratio", speed_ratio, _SPEED_RATIO, beam.omega_0)
 
 
-def figure_10(beam: Beam | None = None) -> xr.Dataset:
+def figure_10() -> xr.Dataset:
     """λ_ω and λ_x of the cantilever's mode, polynomials and the exact beam against ω (Fig. 10)."""
-    beam = beam or Beam.reference()
+    beam = Beam.reference()
     polynomials = {f"degree {n}": (beam, f"P{n}") for n in (3, 4, 5)}
     models = {"CI": (beam, "CI"), **polynomials}
     return _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA)
 
 
-def figure_11(
-    beam: Beam | None = None, slendernesses: Sequence[float] = (1e-2, 1e-3, 1e-4, 1.758374435e-6)
-) -> xr.Dataset:
+def figure_11() -> xr.Dataset:
     """λ_ω and λ_x of CE and of the exact beam against ω for several slendernesses μ (Fig. 11).
 
     The print does not say which μ it shows. Length, mass and bending stiffness are the beam's own;
     only the area, and with it EA = EI/(μL²), follows μ. The exact curves end at 0.6 of the speed
     that stretches the beam without bound.
     """
-    beam = beam or Beam.reference()
+    beam = Beam.reference()
     beams = {}
-    for mu in slendernesses:
+    for mu in (1e-2, 1e-3, 1e-4, beam.slenderness):
         area = beam.second_moment / (mu * beam.length**2)
         name = f"μ = {mu:.4g}"
         beams[name] = replace(beam, area=area, density=beam.mass_per_length / area)
@@ -109,17 +112,13 @@ def figure_11(
     return data.assign_attrs(held="L, m and EI are held, EA = EI/(μL²)")
 
 
-def figure_12(
-    beam: Beam | None = None,
-    omegas: Sequence[float] = SPEEDS,
-    degrees: Sequence[int] = tuple(range(8, 61, 2)),
-) -> xr.Dataset:
+def figure_12() -> xr.Dataset:
     """Frobenius' natural frequency against the degree of its polynomials (Fig. 12)."""
-    beam = beam or Beam.reference()
+    beam, degrees = Beam.reference(), range(8, 61, 2)
     scale = beam.frequency_scale
-    estimate = np.full((len(omegas), len(degrees)), np.nan)
-    converged = np.empty(len(omegas))
-    for i, omega in enumerate(omegas):
+    estimate = np.full((len(SPEEDS), len(degrees)), np.nan)
+    converged = np.empty(len(SPEEDS))
+    for i, omega in enumerate(SPEEDS):
         w_bar = omega / scale
         converged[i] = scale * rotating_frequency(w_bar, converged_degree(w_bar))
         for j, degree in enumerate(degrees):
@@ -132,20 +131,20 @@ def figure_12(
             "omega_n": (("omega", "degree"), estimate, "natural frequency ω_n [rad/s]"),
             "converged": ("omega", converged, "converged natural frequency ω_n [rad/s]"),
         },
-        {"omega": (list(omegas), OMEGA), "degree": (list(degrees), "polynomial degree")},
+        {"omega": (list(SPEEDS), OMEGA), "degree": (list(degrees), "polynomial degree")},
         {"paper_degree": 36, **beam_attributes(beam)},
     )
 
 
-def figure_13(beam: Beam | None = None, omegas: Sequence[float] = SPEEDS) -> xr.Dataset:
+def figure_13() -> xr.Dataset:
     """First mode shape at rest and in rotation (Fig. 13); speed 0 is the cantilever's."""
-    beam = beam or Beam.reference()
+    beam = Beam.reference()
     eta = np.linspace(0.0, 1.0, 201)
     shapes = [CantileverMode().deflection(eta)]
-    shapes += [rotating_mode(omega / beam.frequency_scale).deflection(eta) for omega in omegas]
+    shapes += [rotating_mode(omega / beam.frequency_scale).deflection(eta) for omega in SPEEDS]
     return dataset(
         {"shape": (("omega", "eta"), shapes, "mode shape φ_v")},
-        {"omega": ([0.0, *omegas], OMEGA), "eta": (eta, "position η/L")},
+        {"omega": ([0.0, *SPEEDS], OMEGA), "eta": (eta, "position η/L")},
         beam_attributes(beam),
     )
 
@@ -195,3 +194,76 @@ def _exact_coefficients(beam: Beam, omegas: FloatArray) -> FloatArray:
         found.append((orbits.lambda_omega, third / first**3))
     curve = interpolate.CubicSpline(nodes, found, extrapolate=False)
     return np.asarray(curve((omegas / fastest) ** (2.0 / 3.0)).T)
+
+
+SOURCES = (
+    "linear frequency",
+    "perturbation",
+    "shape",
+    "elongation",
+    "foreshortening",
+    "Coriolis modes",
+    "extensibility and higher order",
+)
+"""Sources of a reduced model's error, in the order in which they are taken away."""
+
+
+def model_budget(
+    beam: Beam | None = None,
+    *,
+    omegas: Sequence[float] = SPEEDS,
+    amplitudes: Sequence[float] = (0.05, 0.1, 0.15, 0.2),
+) -> xr.Dataset:
+    """Frequency error of CI, CE, FrI, FrE, FrC and FrM, source by source.
+
+    Each model is changed into the exact one step by step. A source is the difference of the
+    frequencies before and after its step; the sources add up to the whole error. The first are the
+    linear frequency (both relative to the model's own ω_n), the perturbation (Eq. 63 less Eq. 41
+    solved exactly from the peak a) and the shape (cantilever's mode for the rotating one). Then
+    come the elongation (sine for the static solution), the foreshortening (-v'²/2 for -v'²/2 -
+    v'⁴/8), the Coriolis modes (FrC less FrM), and the rest between FrM and the exact beam.
+
+    Returns
+    -------
+    Dataset
+        `error`, (ω_NL - ω_NL,exact)/ω_n,exact [-], over (model, source, omega, a), and `total`
+        over (model, omega, a); a is the peak of |q|/L in all of them.
+    """
+    beam = beam or Beam.reference()
+    a = list(amplitudes)
+    error = np.empty((len(MODELS), len(SOURCES), len(omegas), len(a)))
+    total = np.empty((len(MODELS), len(omegas), len(a)))
+    with beyond_range():
+        for j, omega in enumerate(omegas):
+            exact = periodic_orbits(beam, omega, a)
+            for i, name in enumerate(MODELS):
+                stages = [reduced_model(beam, omega, stage) for stage in _stages(VARIANTS[name])]
+                model = stages[0]
+                perturbed = model.frequency(model.first_harmonic(a))
+                ratios = [perturbed / model.omega_n]
+                ratios += [stage.exact_frequency(a) / stage.omega_n for stage in stages]
+                ratios.append(exact.frequency / exact.omega_n)
+                steps = [before - after for before, after in pairwise(ratios)]
+                total[i, j] = (perturbed - exact.frequency) / exact.omega_n
+                error[i, :, j] = [total[i, j] - sum(steps), *steps]
+    label = "error of ω_NL over ω_n"
+    return dataset(
+        {
+            "error": (("model", "source", "omega", "a"), error, label),
+            "total": (("model", "omega", "a"), total, label),
+        },
+        {
+            "model": (list(MODELS), "model"),
+            "source": (list(SOURCES), "source of error"),
+            "omega": (list(omegas), OMEGA),
+            "a": (a, AMPLITUDE),
+        },
+    )
+
+
+def _stages(variant: Variant) -> list[Variant]:
+    """Return the model, and the models that follow as one fault after another is taken away."""
+    rotating = replace(variant, shape="rotating")
+    static = replace(rotating, axial="static") if variant.axial == "sine" else rotating
+    consistent = replace(static, axial="consistent")
+    return [variant, rotating, static, consistent, VARIANTS["FrM"]]

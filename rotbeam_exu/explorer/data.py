@@ -32,8 +32,8 @@ from ..comparison.theory import beyond_range
 from ..labels import AMPLITUDE, OMEGA, dataset
 from ..lazily import xr
 from ..paper import RAMP_TIMES, SPEEDS
+from ..sweeps.cases import worker_pool
 from ..sweeps.grid import sweep
-from ..sweeps.workers import worker_pool
 
 OMEGAS = tuple((0.25 * np.arange(49)).tolist())
 """Speeds of the slider [rad/s]."""

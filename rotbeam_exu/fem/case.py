@@ -22,9 +22,9 @@ from ..runs.attributes import (
     motion_attributes,
     motion_of,
 )
-from ..runs.resolution import checked_steps
+from ..runs.check import checked_steps
 from .elements import Formulation, formulation, require_modeled
-from .frame import Frame
+from .lazily import Frame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,7 +131,7 @@ class RunCase:
     def steps_and_sampling(self) -> tuple[int, int]:
         """Number of steps, and of how many one is kept."""
         return checked_steps(
-            self.beam, self.fastest, self.ramp_time, self.elements, self.duration, self.step,
+            self.beam, self.fastest, self.ramp_time, self.duration, self.step,
             [self.omega if one.frequency is None else one.frequency for one in self.loads],
         )  # fmt: skip
 

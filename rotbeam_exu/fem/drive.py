@@ -26,9 +26,8 @@ from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.motion import Rotation
 
-from .elements.energy_body import add_force, triplets
+from .elements.energy_body import add_force, add_point_inertias, triplets
 from .elements.formulation import Chain, Formulation
-from .elements.point_masses import add_point_inertias
 from .lazily import exudyn, items
 
 Torque = Callable[[Any, float], float]
@@ -229,12 +228,9 @@ def prescribe_rotation(
 def _clamp(
     element: Formulation, root: FloatArray, radius: float, angle: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Return C and d of the constraints C e = d of the root at `angle`, on a hub of `radius`.
-
-    On a hub the root's place goes around as well; at the axis it stands still and is fixed.
-    """
+    """Return C and d of the constraints C e = d of the root at `angle`, on a hub of `radius`."""
     gradient, target = element.clamp(root, angle)
-    if not radius:
+    if not radius:  # at the axis its place stands still
         return gradient, target
     x, y, *up = root[: element.dimensions]
     cosine, sine = math.cos(angle), math.sin(angle)

@@ -16,8 +16,7 @@ from analytic.input_checks import rotation_speed, whole_number
 from analytic.loads import Load
 from analytic.methods.gyroscopic import inverse_eigenvalues
 
-from ..runs.check import SimulationError
-from ..runs.resolution import require_feasible, require_stretch, warn_if_coarse
+from ..runs.check import SimulationError, require_stretch, warn_if_coarse
 from .columns import twist
 from .elements import Formulation, formulation
 from .elements.energy_body import add_force
@@ -78,7 +77,6 @@ class Linearization:
         omega = rotation_speed(omega)
         warn_if_rpm(beam, omega)
         require_steady_state(beam, omega)
-        require_feasible(elements)
         require_stretch(beam)
         model, units = formulation(element), Units.of(beam)
         unit_beam, rotation = units.beam(undamped(beam)), _Raised(omega * units.time)

@@ -1,8 +1,8 @@
 """Loads on a chain and its external damping, in either frame, and the power they bring.
 
-As in `analytic.exact.driven.loading` a load is a complex force in the frame of the clamp, with its
-real part along the blade, and one along the axis of rotation. It acts per mass, per length, or on
-the tip. A ripple of the speed is no force but part of the clamp's rotation. External damping is
+As in `analytic.exact.driven.transient` a load is a complex force in the frame of the clamp, with
+its real part along the blade, and one along the axis of rotation. It acts per mass, per length, or
+on the tip. A ripple of the speed is no force but part of the clamp's rotation. External damping is
 -d ṙ per length with the velocity relative to the clamp,
 
     f = -D (e' - θ' (J e + a)),      D = d ∫SᵀS dx,
@@ -26,8 +26,7 @@ from analytic.motion import Rotation
 
 from .elements.energy_body import add_force, triplets
 from .elements.formulation import Chain, Formulation
-from .frame import Frame
-from .lazily import exudyn
+from .lazily import Frame, exudyn
 from .solver import mass_matrix
 
 

@@ -14,8 +14,7 @@ from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
 from .elements.formulation import Chain, Formulation
-from .frame import Frame
-from .lazily import exudyn, items
+from .lazily import Frame, exudyn, items
 
 _TOLERANCE = 1e-9
 """Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""

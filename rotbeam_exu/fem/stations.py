@@ -13,7 +13,8 @@ import math
 import numpy as np
 
 from analytic.arrays import FloatArray, few_at_once
-from analytic.exact.beam.section_loads import SectionLoads, set_at
+from analytic.exact.beam.kinematics import set_at
+from analytic.exact.beam.state import SectionLoads
 from analytic.exact.space.unit import space_unit
 from analytic.lazily import sparse
 from analytic.quadrature import gauss_points
@@ -117,6 +118,7 @@ class _Masses:
                 push = load.force(phase, angle, model.setting(self._beam))[:, None]
                 f[..., 0] += self._weights[load.acts_on] * push.real
                 f[..., 1] += self._weights[load.acts_on] * push.imag
+                f[..., 2] += self._weights[load.acts_on] * load.lift(phase)[:, None]
         couple, section = np.cross(r[:, :count], f), model.sections(e)
         if self._second.any():
             ahead, d, behind = (

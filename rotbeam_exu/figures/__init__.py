@@ -12,9 +12,17 @@ import xarray as xr
 
 from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
-from .maps import growth_out_of_plane, softening_by_plane, softening_map
 from .paper_figure import PAPER_FIGURES
-from .results import campbell, divergence_speed, forced_response, planar_stability, residual
+from .results import (
+    campbell,
+    divergence_speed,
+    forced_response,
+    growth_out_of_plane,
+    planar_stability,
+    residual,
+    softening_by_plane,
+    softening_map,
+)
 from .runs import figure_3, figure_4, figure_15, spin_up
 from .style import STYLE, STYLES, Style, save_figure, style
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13

@@ -18,6 +18,7 @@ from .style import (
     cycle,
     house_axes,
     ink,
+    inset,
     label,
     model_line,
     quantity,
@@ -66,10 +67,8 @@ def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     last = data["q"].where(data["time"] >= end - 0.25 * (end - ramp_time), drop=True)
     height = 1.15 * float(np.abs(last).max())
     with house_axes(ax, column(), 2.9) as axes:
-        near = axes.inset_axes((0.52, 0.14, 0.46, 0.48))
-        near.set(xlim=(last["time"][0], end), ylim=(-height, height))
-        near.spines[["top", "right"]].set_visible(True)
-        near.tick_params(labelsize=6.0)
+        within = {"xlim": (last["time"][0], end), "ylim": (-height, height)}
+        near = inset(axes, (0.52, 0.14, 0.46, 0.48), **within)
         shade_ramp(axes, ramp_time)
         for panel in (axes, near):
             panel.plot(data["time"], data["exact"], label="exact", **model_line("exact"))
@@ -199,12 +198,10 @@ def figure_15(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
     amplitude = float(data.attrs["amplitude"])
     fastest = float(data["q_dot_bar"].sel(model="finite element").max())
     with house_axes(ax, columns(), 3.4, ncols=2) as (axes, apart):
-        near = axes.inset_axes((0.31, 0.28, 0.35, 0.44))
-        near.set(
-            xlim=(0.9 * amplitude, 1.02 * amplitude), ylim=(-0.45 * fastest, 0.45 * fastest),
-            xticks=[], yticks=[],
+        near = inset(
+            axes, (0.31, 0.28, 0.35, 0.44), xlim=(0.9 * amplitude, 1.02 * amplitude),
+            ylim=(-0.45 * fastest, 0.45 * fastest), xticks=[], yticks=[],
         )  # fmt: skip
-        near.spines[["top", "right"]].set_visible(True)
         for panel in (axes, near):
             _orbits(panel, data)
         axes.indicate_inset_zoom(near, edgecolor="0.5", alpha=1.0)

@@ -261,6 +261,15 @@ def shade_ramp(ax: Axes, ramp_time: float) -> None:
     )  # fmt: skip
 
 
+def inset(ax: Axes, place: tuple[float, float, float, float], **settings: Any) -> Axes:
+    """Return framed axes within others, with small numbers."""
+    near = ax.inset_axes(place)
+    near.set(**settings)
+    near.spines[["top", "right"]].set_visible(True)
+    near.tick_params(labelsize=6.0)
+    return near
+
+
 def label(variable: xr.DataArray) -> str:
     """Return an axis label, long name and unit, from a variable's attributes."""
     unit = variable.attrs.get("units", "")

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from ..comparison import theory as made
 from ..paper import MODEL_LINES, MODEL_NAMES
 from .paper_figure import EXACT, listed, paper_figure
-from .style import column, columns, cycle, house_axes, label, model_line, ramp, typeset
+from .style import column, columns, cycle, house_axes, inset, label, model_line, ramp, typeset
 
 _NEAR = "Inset: the same near zero."
 _SHORT_DASHES = ("-", (0, (2, 1)), (0, (1, 1)))  # what greys do not tell from the models'
@@ -41,10 +41,10 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     names = ("CI, Ω = 0", "CI, Ω = 1", "CI, Ω → ∞")
     line = model_line("exact")
     with house_axes(ax, column(), 3.2) as axes:
-        near = axes.inset_axes((0.1, 0.1, 0.38, 0.5))
-        near.set(xlim=(0.991, 1.005), ylim=(0.0, 0.4), xticks=(0.995, 1.0), yticks=(0.0, 0.2, 0.4))
-        near.spines[["top", "right"]].set_visible(True)
-        near.tick_params(labelsize=6.0)
+        near = inset(
+            axes, (0.1, 0.1, 0.38, 0.5), xlim=(0.991, 1.005), ylim=(0.0, 0.4),
+            xticks=(0.995, 1.0), yticks=(0.0, 0.2, 0.4),
+        )  # fmt: skip
         for panel in (axes, near):
             panel.fill_betweenx(a, ratio[0], ratio[-1], color="0.92", lw=0)
             for row, color, dashes, name in zip(ratio, cycle(), _DASHES, names, strict=False):
@@ -117,10 +117,10 @@ def _coefficients(
             panel.set(xlabel=label(data[axis]), ylabel=label(data[variable]))
             panel.set_title(f"{letter})", loc="left")
         if near:
-            inset = axes[0].inset_axes((0.5, 0.2, 0.5, 0.5))
-            _rows(inset, data[axis], data["lambda_omega"], lines)
-            inset.set_ylim(-0.05, 0.05)
-            inset.tick_params(labelsize=6.0)
+            around_zero = axes[0].inset_axes((0.5, 0.2, 0.5, 0.5))
+            _rows(around_zero, data[axis], data["lambda_omega"], lines)
+            around_zero.set_ylim(-0.05, 0.05)
+            around_zero.tick_params(labelsize=6.0)
         figure: Any = axes[0].get_figure(root=True)
         named = axes[0].get_legend_handles_labels()
         figure.legend(*named, loc="outside lower center", ncols=min(len(lines), 5))

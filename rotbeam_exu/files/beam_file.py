@@ -13,8 +13,8 @@ from typing import Any
 from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section
 from analytic.description import from_description
 from analytic.input_checks import positive, rotation_speed, whole_number
-from analytic.line import Line
 from analytic.loads import Load
+from analytic.parts import Line
 from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike
 
 from analytic import Beam, Blade, Damping, PointMass, Section
 from analytic.description import Described, kinds_of
-from analytic.line import Line
 from analytic.loads import Load
+from analytic.parts import Line
 from analytic.section_shapes import SectionShape
 
 

@@ -36,8 +36,7 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     Raises
     ------
     ValueError
-        If the ending is neither; if something would not come back from netCDF as it is, which the
-        sentence names.
+        If the ending is neither; if something would not come back from netCDF as it is.
     OSError
         If the file cannot be written; what stood there before then still stands.
 

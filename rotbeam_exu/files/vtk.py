@@ -38,12 +38,12 @@ def save_vtk(
     path : Path
     height, width : float, optional
         Of a rectangular section along its chord, which is in the plane of bending, and across it
-        [m]. With both the blade is drawn as a body, else as a line.
+        [m]. With both the blade is drawn as a body, with neither as a line.
 
     Raises
     ------
     ValueError
-        If the ending is another, or there are no sections at two stations.
+        If the ending is another, there are no sections at two stations, or one side is missing.
 
     Examples
     --------
@@ -67,9 +67,7 @@ def save_vtk(
             "at least two along the blade"
         )
     data = data if "time" in data.dims else data.expand_dims("time")
-    offsets = np.zeros((1, 2))
-    if height is not None and width is not None:
-        offsets = _CORNERS * (positive("height", height, "m"), positive("width", width, "m"))
+    offsets = corners(height, width)
     folder, sets = path.with_suffix(""), ""
     writable_folder(folder)
     for n, standing in enumerate(zip(*in_space(data), strict=True)):
@@ -80,6 +78,17 @@ def save_vtk(
     with whole_file(path) as partial:
         partial.write_text(_file("Collection", sets), encoding="utf-8")
     return path
+
+
+def corners(height: float | None, width: float | None) -> FloatArray:
+    """Return the corners of a section from its axis [m], (4, 2); without sides the axis alone."""
+    if height is None and width is None:
+        return np.zeros((1, 2))
+    if height is None or width is None:
+        missing = "height" if height is None else "width"
+        raise ValueError(f"a body has a height and a width: give {missing} too, or leave both out")
+    sides = positive("height", height, "m"), positive("width", width, "m")
+    return np.asarray(_CORNERS * sides)
 
 
 def _grid(data: xr.Dataset, place: FloatArray, section: FloatArray, offsets: FloatArray) -> str:

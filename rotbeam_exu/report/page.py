@@ -1,4 +1,7 @@
-"""The report: one HTML page that needs nothing else, to be read, printed, and sent with a paper."""
+"""The report: one HTML page that needs nothing else, to be read, printed, and sent with a paper.
+
+It has a table for a paper in LaTeX, and what to cite.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +15,11 @@ from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from ..verification.cases import CASES, VERSION
+from ..verification.convergence import Order
 from ..verification.judgement import THRESHOLDS
 from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
 from .document import Record, document
-from .latex import BIBTEX, latex_table
 
 TITLE = "rotbeam judgement"
 """Beginning of each page's title, by which a page is known."""
@@ -32,6 +35,22 @@ _MARKS = {
     Outcome.NOT_SUBMITTED: ("open", "–"), Outcome.UNDECIDED: ("open", "?"),
     Outcome.DIFFERS: ("wrong", "≠"),
 }  # fmt: skip
+
+
+BIBTEX = rf"""@misc{{rotbeam,
+  author = {{{{The rotbeam\_exu developers}}}},
+  title = {{rotbeam\_exu: the rotating cantilever beam benchmark}},
+  note = {{Benchmark {VERSION}}},
+}}
+@misc{{gonzalezcarbajal,
+  author = {{Gonz{{\'a}}lez-Carbajal, J. and Rinc{{\'o}}n-Casado, A. and
+    Garc{{\'i}}a-Vallejo, D. and Dom{{\'i}}nguez, J.}},
+  title = {{Nonlinear solutions for the steady state oscillations of a clamped-free rotating beam}},
+}}
+"""
+"""Entries of the benchmark and of the paper that it follows."""
+
+_SPECIAL = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
 
 
 def report_page(record: Record) -> str:
@@ -124,3 +143,52 @@ def _runs(record: Record) -> dict[str, list[str]]:
 
 def _happened(run: Run) -> str:
     return f"failed: {run.failure}" if run.failure else run.remark
+
+
+def latex_table(record: Record) -> str:
+    """Return a table of one row a case, by booktabs, with uncertainties.
+
+    A case shows its first quantity: q(t) of a history, a frequency, or a backbone.
+    """
+    found = record.judgement
+    rows = []
+    for name, findings in found.findings.items():
+        first = next(iter(findings.values()))
+        orders = first.runs.orders if first.runs else {}
+        cells = (
+            _escaped(name), str(found.outcome_of(name)), _in_latex(abs(first.difference)),
+            _limit(first), _order(orders.get("mesh")), _order(orders.get("step")),
+        )  # fmt: skip
+        rows.append(f"    {' & '.join(cells)} \\\\\n")
+    return (
+        "\\begin{table}\n"
+        f"  \\caption{{{_escaped(record.name)}, judged by the rotating beam benchmark {VERSION}: "
+        f"{_escaped(found.outcome)}.}}\n"
+        "  \\begin{tabular}{llrrrr}\n    \\toprule\n"
+        "    Case & Outcome & Finest run & Limit $-$ reference & Order, mesh & Order, step \\\\\n"
+        f"    \\midrule\n{''.join(rows)}    \\bottomrule\n  \\end{{tabular}}\n\\end{{table}}\n"
+    )
+
+
+def _limit(found: Finding) -> str:
+    if found.runs is None or not math.isfinite(found.runs.limit):
+        return "--"
+    return f"{_in_latex(found.runs.limit)} $\\pm$ {_in_latex(found.runs.bar)}"
+
+
+def _order(order: Order | None) -> str:
+    if order is None or math.isnan(order.value):
+        return "--"
+    return f"${order.value:.1f} \\pm {order.bar:.1f}$"
+
+
+def _in_latex(value: float) -> str:
+    if not math.isfinite(value):
+        return "--"
+    mantissa, power = f"{value:.1e}".split("e")
+    return f"${mantissa} \\cdot 10^{{{int(power)}}}$"
+
+
+def _escaped(text: str) -> str:
+    """Return text that LaTeX prints as it stands."""
+    return re.sub(r"[\\~^&%$#_{}]", lambda one: _SPECIAL.get(one[0], "\\" + one[0]), text)

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
+from importlib import metadata
 from typing import Any
 
 from analytic import AnyBlade, Beam, Blade, SpinUp, SteadyRotation
 from analytic.description import describe, from_description
 from analytic.loads import Load
 from analytic.motion import Motion
+
+from .. import __version__
 
 
 def beam_of(attrs: Mapping[Any, Any]) -> AnyBlade:
@@ -54,3 +58,14 @@ def motion_attributes(motion: Motion) -> dict[str, Any]:
     if type(motion) in (SpinUp, SteadyRotation):
         return {}
     return {"motion": json.dumps(describe(motion))}
+
+
+def versions() -> dict[str, str]:
+    """Return the versions that a result depends on, of the libraries that are installed."""
+    found = {"rotbeam-exu": __version__, "python": platform.python_version()}
+    for name in ("exudyn", "numpy", "scipy"):
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            continue
+    return found

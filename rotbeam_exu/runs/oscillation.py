@@ -21,7 +21,7 @@ SAMPLES = 20
 """Samples a period at least, two for each of ten harmonics; `simulate` keeps more."""
 
 
-OSCILLATION = {
+OSCILLATION: dict[str, str] = {
     "amplitude": "amplitude a = q/L, half peak to peak",
     "amplitude_error": "error bar of a, estimator",
     "first_harmonic": "first harmonic over L",
@@ -63,18 +63,6 @@ class SteadyOscillation:
         Whole cycles in the window.
     harmonics : ndarray of shape (HARMONICS,)
         Amplitudes of the harmonics over L [-], the first one first.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import xarray as xr
-    >>> from rotbeam_exu import steady_oscillation
-    >>> time = np.linspace(0.0, 20.0, 1001)
-    >>> q = xr.DataArray(2.0 * np.sin(3.7 * time), dims="time", coords={"time": time})
-    >>> run = xr.Dataset({"q": q}, attrs={"ramp_time": 0.0, "beam_length": 8.0})
-    >>> steady = steady_oscillation(run)
-    >>> print(f"{steady.amplitude:.4f} L at {steady.frequency:.4f} rad/s")
-    0.2500 L at 3.7000 rad/s
     """
 
     amplitude: float

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from analytic.arrays import FloatArray
-from analytic.exact.beam.section_loads import SectionLoads, in_plane_of_bending
+from analytic.exact.beam.kinematics import in_plane_of_bending
+from analytic.exact.beam.state import SectionLoads
 from analytic.exact.space.unit import space_unit
 from analytic.input_checks import not_negative
 from analytic.profiles import evaluated

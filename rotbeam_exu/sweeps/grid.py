@@ -22,16 +22,15 @@ from analytic.loads import Load
 
 from ..fem.case import RunCase
 from ..fem.elements import Formulation
-from ..fem.frame import Frame
+from ..fem.lazily import Frame
 from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..labels import OMEGA, dataset
 from ..lazily import xr
+from ..runs.attributes import versions
 from ..runs.check import SimulationError
 from ..runs.oscillation import OSCILLATION, NoOscillationError, steady_oscillation
-from ..runs.versions import versions
-from .cache import Cache, cache_of
-from .workers import worker_pool
+from .cases import Cache, cache_of, worker_pool
 
 OnError = Literal["raise", "record"]
 

@@ -47,10 +47,10 @@ class Assessment:
         exact beam [rad/s].
     amplitude, frequency : float
         Amplitude over L of the run, and its nonlinear frequency ω_NL [rad/s].
-    exact_frequency : float or None
+    exact_frequency : float
         Frequency of the exact beam's periodic orbit at the run's own amplitude [rad/s].
     why_not : str
-        Why the exact orbit cannot be had, where it cannot.
+        Why the exact orbit cannot be had, where it cannot; its frequency is then NaN.
     """
 
     theory: str
@@ -59,7 +59,7 @@ class Assessment:
     exact_omega_n: float
     amplitude: float
     frequency: float
-    exact_frequency: float | None
+    exact_frequency: float
     why_not: str = ""
 
     @property
@@ -81,20 +81,18 @@ class Assessment:
         return abs(self.refined_error) > max(_STAYS * abs(self.mesh_error), _NOISE)
 
     @property
-    def error(self) -> float | None:
+    def error(self) -> float:
         """Relative error of ω_NL at the run's own amplitude."""
-        return None if self.exact_frequency is None else self.frequency / self.exact_frequency - 1.0
+        return self.frequency / self.exact_frequency - 1.0
 
     @property
-    def step_error(self) -> float | None:
+    def step_error(self) -> float:
         """The error of ω_NL beyond that of ω_n: the step, and the mesh in the swing."""
-        return None if self.error is None else self.error - self.mesh_error
+        return self.error - self.mesh_error
 
     @property
-    def effect(self) -> float | None:
+    def effect(self) -> float:
         """The nonlinear effect of the exact beam, ω_NL/ω_n - 1."""
-        if self.exact_frequency is None:
-            return None
         return self.exact_frequency / self.exact_omega_n - 1.0
 
     def _share(self, error: float) -> str:
@@ -112,7 +110,7 @@ class Assessment:
                 f"{'another limit' if self.elsewhere else 'the mesh'}",
             )
         ]
-        if self.exact_frequency is None:
+        if self.why_not:
             return [*lines, ("exact ω_NL", f"cannot be had: {self.why_not}")]
         return [
             *lines,
@@ -127,7 +125,7 @@ class Assessment:
 
     def warnings(self, elements: int, step: float) -> list[str]:
         """Return a sentence for the mesh and the step, where its error hides the effect."""
-        if self.effect is None or self.step_error is None:
+        if self.why_not:
             return []
         if self.amplitude < _LINEAR and abs(self.effect) < max(
             map(abs, (self.mesh_error, self.step_error))
@@ -181,7 +179,7 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
     extensible, with shear and rotary inertia where the element has them, which are worth 5e-5.
     """
     theory = formulation(case.element).theory
-    exact_frequency, why_not = None, "" if exact else "it was not asked for"
+    exact_frequency, why_not = math.nan, "" if exact else "it was not asked for"
     if case.exchanges_energy:
         why_not = "loads and damping make it another than the free orbit's"
     if not why_not:
@@ -192,25 +190,17 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
             exact_frequency = float(orbit.frequency[0])
         except (RuntimeError, ValueError) as error:
             why_not = str(error)
-    omega_n, refined = (
-        float(
-            natural_frequencies(
-                case.beam, case.omega, element=case.element, elements=elements, count=1
-            )[0]
-        )
-        if elements <= max(2 * _FINEST, case.elements)
-        else math.nan
-        for elements in (case.elements, 2 * case.elements)
-    )
+
+    def omega_n(elements: int) -> float:
+        if elements > max(2 * _FINEST, case.elements):
+            return math.nan
+        of = case.beam, case.omega
+        return float(natural_frequencies(*of, element=case.element, elements=elements, count=1)[0])
+
+    exact_modes = analytic.linear_modes(case.beam, case.omega, 1, theory=theory)
     return Assessment(
-        theory=theory.name,
-        omega_n=omega_n,
-        refined_omega_n=refined,
-        exact_omega_n=float(
-            analytic.linear_modes(case.beam, case.omega, 1, theory=theory).frequencies[0]
-        ),
-        amplitude=steady.amplitude,
-        frequency=steady.frequency,
-        exact_frequency=exact_frequency,
-        why_not=why_not,
-    )
+        theory=theory.name, omega_n=omega_n(case.elements),
+        refined_omega_n=omega_n(2 * case.elements),
+        exact_omega_n=float(exact_modes.frequencies[0]), amplitude=steady.amplitude,
+        frequency=steady.frequency, exact_frequency=exact_frequency, why_not=why_not,
+    )  # fmt: skip

@@ -64,7 +64,7 @@ class Histories:
     @cached_property
     def finest(self) -> Run:
         """Run of the finest mesh, at its smallest step."""
-        return finest_of(self.runs)
+        return max(self.runs, key=lambda run: run.fineness)
 
     @cached_property
     def scale(self) -> FloatArray:
@@ -90,8 +90,7 @@ class Histories:
         """Return the finding of q(t) itself, over max|q|."""
         # Amplitude and frequency have few digits in the estimator's own errors already.
         noise = [HISTORY_FLOOR + np.max(run.rounding / self.scale) for run in self.aligned]
-        runs = self._limit(self.aligned, noise)
-        found = self._found(runs, tolerance, self.reference.bound)
+        found = self._found(self.aligned, noise, tolerance, self.reference.bound)
         if self.case.in_space and not found.outcome.passed:
             worst = np.abs(self.differences[self.finest]).max(axis=0).argmax()
             found = replace(found, note=f"{found.note}, most of all {TIP[worst]}")
@@ -164,22 +163,20 @@ class Histories:
         if not measured:
             note = str(self.oscillations[self.finest])
             return Finding(outcome=Outcome.DIFFERS, note=note, tolerance=tolerance)
-        runs = self._limit(
-            {run: np.array([value / scale]) for run, (value, _) in measured.items()},
-            [bar / abs(scale) for _, bar in measured.values()],
-        )
-        return self._found(runs, tolerance, bound / abs(scale), of_what)
+        values = {run: np.array([value / scale]) for run, (value, _) in measured.items()}
+        noise = [bar / abs(scale) for _, bar in measured.values()]
+        return self._found(values, noise, tolerance, bound / abs(scale), of_what)
 
-    def _limit(self, of: Mapping[Run, FloatArray], noise: Sequence[float]) -> Convergence:
-        return converged(
+    def _found(
+        self, of: Mapping[Run, FloatArray], noise: Sequence[float], tolerance: float, bound: float,
+        of_what: str = "the reference",
+    ) -> Finding:  # fmt: skip
+        """Return the finding of a number or function of each run."""
+        runs = converged(
             [run.elements for run in of], [run.refinement for run in of], list(of.values()),
             refined="tolerance" if self.finest.is_adaptive else "step", noise=noise,
             declared=(self.declaration.order, self.declaration.order_in_step),
         )  # fmt: skip
-
-    def _found(
-        self, runs: Convergence, tolerance: float, bound: float, of_what: str = "the reference"
-    ) -> Finding:
         where = f"in {self.case.name}"
         return found_of(runs, tolerance=tolerance, bound=bound, where=where, of_what=of_what)
 
@@ -230,11 +227,6 @@ def free_frequency(case: Case, elements: int, speed: float, time: FloatArray, q:
         case=case.name, elements=elements, speed=speed, values=(found.frequency,),
         rounding=(found.frequency_error,),
     )  # fmt: skip
-
-
-def finest_of(runs: Sequence[Run]) -> Run:
-    """Return the run of the finest mesh, at its smallest step."""
-    return max(runs, key=lambda run: run.fineness)
 
 
 def mending(linear: Convergence | None) -> tuple[float, float]:

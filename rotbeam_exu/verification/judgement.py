@@ -198,12 +198,10 @@ def judged(
         name = case.name
         if progress is not None:
             progress(name, done, len(chosen))
-        sources[name] = "none"
         try:
             truth = reference(case, submission.declaration.theory)
         except (RuntimeError, ValueError) as error:
-            nothing = Finding(outcome=Outcome.UNDECIDED, note=f"no reference: {error}")
-            findings[name] = dict.fromkeys(case.quantities, nothing)
+            sources[name], findings[name] = "none", _undecided(case, f"no reference: {error}")
             continue
         sources[name] = truth.source
         own = linear[case.blade]
@@ -212,17 +210,16 @@ def judged(
             found, limits = _of_table(submission, truth, THRESHOLDS[quantity], own)
             findings[name] = {quantity: found}
             own.update(limits if case.asked is Asked.FREQUENCIES else {})
-        else:
-            handed = [run for run in submission.runs if run.case == name]
-            runs, remarks[name] = judged_apart(handed, truth)
-            if not runs:
-                nothing = Finding(outcome=Outcome.UNDECIDED, note=f"no run: {remarks[name][-1]}")
-                findings[name] = dict.fromkeys(case.quantities, nothing)
-                continue
-            histories[name] = Histories(
-                case=case, runs=tuple(runs), reference=truth, declaration=submission.declaration
-            )
-            findings[name] = _of_histories(histories[name], own)
+            continue
+        handed = [run for run in submission.runs if run.case == name]
+        runs, remarks[name] = judged_apart(handed, truth)
+        if not runs:
+            findings[name] = _undecided(case, f"no run: {remarks[name][-1]}")
+            continue
+        histories[name] = Histories(
+            case=case, runs=tuple(runs), reference=truth, declaration=submission.declaration
+        )
+        findings[name] = _of_histories(histories[name], own)
     asked = [name for name in known if not only or name in only]
     names = [name for name in asked if name in findings]
     return Judgement(
@@ -233,6 +230,10 @@ def judged(
         remarks={name: remarks[name] for name in names if remarks.get(name)},
         asked=tuple(asked),
     )
+
+
+def _undecided(case: Case, note: str) -> dict[str, Finding]:
+    return dict.fromkeys(case.quantities, Finding(outcome=Outcome.UNDECIDED, note=note))
 
 
 def _of_histories(seen: Histories, linear: Mapping[float, Convergence]) -> dict[str, Finding]:

@@ -1,7 +1,6 @@
 """The kit: all that an author of a code needs to take part, in any language, as plain files.
 
-Its problem statement, PROBLEM.pdf, is typeset anew by `python -m rotbeam_exu.verification.kit`,
-which needs the package typst: the group `kit`, which `make references` installs.
+Its problem statement, PROBLEM.pdf, is typeset by `make references`, from tools/problem.typ.
 """
 
 from __future__ import annotations
@@ -9,20 +8,19 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, is_dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import Beam
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_array
 
 from ..files.results import whole_folder
-from .case_rows import COLUMNS, cases_csv, row_of
-from .cases import CASES, VERSION, Asked, Case
+from .cases import CASES, VERSION, Asked, Case, stated
 from .judgement import THRESHOLDS
 from .references import reference
 from .submission_files.runs import FARTHEST
@@ -31,15 +29,8 @@ from .submission_files.tables import DIGITS
 STATIC = Path(__file__).parent / "data" / "kit"
 """Files that every kit has as they stand: the problem, starters, a sample submission."""
 
-SOURCE, PDF = STATIC / "problem.typ", STATIC / "PROBLEM.pdf"
-DIGEST = STATIC / "PROBLEM.sha256"
-"""SHA-256 of the source and the numbers that the PDF was made from."""
-
-
 MESHES = (8, 16, 32, 64, 128)
 """Numbers of elements at whose nodes an orbit is written; codes of order two need the last ones."""
-
-_SOURCES = {SOURCE.name, DIGEST.name}  # of the PDF, which is what an author wants
 
 SPACING = 0.01
 """Time between the samples of drives and of the history for self-check [s]."""
@@ -78,7 +69,7 @@ def kit_files() -> dict[str, bytes]:
     files = {
         path.relative_to(STATIC).as_posix(): path.read_bytes()
         for path in sorted(STATIC.rglob("*"))
-        if path.is_file() and path.suffix != ".pyc" and path.name not in _SOURCES
+        if path.is_file() and path.suffix != ".pyc"
     }
     histories = [case for case in CASES.values() if case.asked is Asked.HISTORY]
     texts = {"VERSION": f"{VERSION}\n", "cases.csv": cases_csv(), "cases.json": _cases_json()}
@@ -146,7 +137,7 @@ def start_table(case: Case, places: ArrayLike) -> str:
 def _self_check(case: Case) -> str:
     time, truth = _times(case), reference(case)
     said = f"case {case.name}: the reference, within {truth.bound:.0e} of max|q|; s, m, m/s"
-    return _table(said, {"time": time, "q": truth.history(time), "q_dot": truth.rate(time)})
+    return _table(said, {"time": time, "q": truth.history(time), "q_dot": truth.history(time, 1)})
 
 
 def _times(case: Case) -> FloatArray:
@@ -160,63 +151,106 @@ def _table(said: str, columns: dict[str, FloatArray]) -> str:
     return "\n".join([f"# {said}", ",".join(columns), *lines, ""])
 
 
-def problem_numbers() -> str:
-    """Return the numbers for the problem's source as JSON: cases, thresholds, S1."""
-    case, beam = CASES["S1"], Beam.reference()
-    material = beam.youngs_modulus, beam.density, beam.area, beam.second_moment
-    times = np.linspace(0.0, case.duration, 601)
-    document = {
-        "version": VERSION,
-        "cases": [row_of(case) | {"besides": _besides(case)} for case in CASES.values()],
-        "material": dict(zip(("E", "rho", "A", "I"), material, strict=True)),
-        "thresholds": {name: f"{value:g}" for name, value in THRESHOLDS.items()},
-        "farthest": FARTHEST,
-        "digits": DIGITS,
-        "history": np.round(reference(case).history(times) / case.blade.length, 4).tolist(),
-        "space": _looked_at(),
+@dataclass(frozen=True)
+class CaseColumn:
+    """A column of cases.csv: its name, its unit, and the cell of a case that has none.
+
+    PROBLEM.pdf tells it below "besides", where it has such words; {} is the number.
+    """
+
+    name: str
+    unit: str
+    nothing: float | None = None
+    besides: str = ""
+
+
+_TIP_MASS = CaseColumn("tip_mass", "kg", 0.0, "mass at the tip {} kg")
+_ETA = "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s"
+_LEVEL = "along $-bold(b)_3$"
+_OMEGA = CaseColumn("omega", "rad/s")
+_PITCH = "twist $theta = {}$"
+COLUMNS = {
+    "length": CaseColumn("L", "m"),
+    "section.axial_stiffness": CaseColumn("EA", "N"),
+    "section.bending_stiffness": CaseColumn("EI", "N m^2"),
+    "section.mass_per_length": CaseColumn("rhoA", "kg/m"),
+    "section.out_of_plane.bending_ratio": CaseColumn("EI_flap/EI", "1"),
+    "section.out_of_plane.torsion_ratio": CaseColumn("GJ/EI", "1"),
+    "line.twist.in proportion": CaseColumn("twist", "rad", 0.0, _PITCH),
+    "line.precone": CaseColumn("precone", "rad", 0.0, "precone $beta = {}$"),
+    "hub_radius": CaseColumn("hub_radius", "m", 0.0),
+    "point_masses.PointMass.mass": _TIP_MASS,
+    "point_masses.PointMass.position": CaseColumn("L", "m"),
+    "damping.bending": CaseColumn("bending_damping", "s", 0.0, _ETA),
+    "loads.Gravity.gravity": CaseColumn("gravity", "m/s^2", 0.0, "gravity $g = {}$ m/s²"),
+    "loads.Gravity.tilt": CaseColumn("gravity_tilt", "rad", 0.0, _LEVEL),
+    "kick": CaseColumn("kick", "m/s", 0.0, "kick $v = {}$ m/s"),
+    "motion.SpinUp.omega": _OMEGA,
+    "motion.SteadyRotation.omega": _OMEGA,
+    "motion.SpinUp.ramp_time": CaseColumn("T", "s"),
+}
+"""Columns by the part of blade, motion or loads that they tell; a part without one is refused."""
+
+
+def row_of(case: Case) -> dict[str, Any]:
+    """Return the data of a case by the names in cases.csv; None stands for missing data.
+
+    Raises
+    ------
+    ValueError
+        If the case has what no column says.
+    """
+    told, lost = dict[str, float](), []
+    for part, value in sorted(_parts_of(case)):
+        name = COLUMNS[part].name if part in COLUMNS else ""
+        if not (name and isinstance(value, float)) or told.setdefault(name, value) != value:
+            lost.append(part)
+    if lost:
+        raise ValueError(
+            f"cases.csv has no column for {', '.join(lost)} of case {case.name}: add it to "
+            "COLUMNS, or leave it out of the case"
+        )
+    return {
+        "id": case.name,
+        "level": str(case.level),
+        "asked": case.asked.name.lower(),
+        **{one.name: told.get(one.name, one.nothing) for one in COLUMNS.values()},
+        "duration": case.duration or None,
+        "speeds": list(case.speeds),
+        "count": case.count if case.asked is Asked.FREQUENCIES else None,
+        "amplitudes": list(case.amplitudes),
     }
-    return json.dumps(document)
 
 
-def _looked_at() -> list[dict[str, Any]]:
-    """Return numbers of the cases in space, to look at before the first judgement."""
-    found: list[dict[str, Any]] = []
-    for case in CASES.values():
-        if not case.in_space:
-            continue
-        truth = reference(case)
-        at = case.speeds[-1:] or (5.0, 15.0)
-        at_text = "{:g} rad/s" if case.speeds else "$t$ = {:g} s"
-        rows = [truth.row(x) if case.speeds else truth.history(x) for x in at]
-        found += [
-            {"id": case.name, "at": at_text.format(x), "row": [f"{v:.4g}" for v in row.tolist()]}
-            for x, row in zip(at, rows, strict=True)
-        ]
-    return found
+def _parts_of(case: Case) -> Iterator[tuple[str, Any]]:
+    """Yield what blade, motion and loads state, by the names of where it stands."""
+    yield from _parts("", case.blade.blade)
+    yield from _parts("motion.", (case.motion,) if case.motion else ())
+    yield from _parts("loads.", case.loads)
+    yield from _parts("kick", case.kick) if case.kick else ()
 
 
-def _besides(case: Case) -> list[str]:
-    """Return the problem's text on a case beside its beam and motion, in Typst's markup."""
-    row = row_of(case)
-    listed = {"$omega$: {} rad/s": case.speeds, "$a$: {}": case.amplitudes}
-    said = [text.format(", ".join(f"{x:g}" for x in of)) for text, of in listed.items() if of]
-    told = {one.name: one for one in COLUMNS.values() if one.besides and row[one.name]}
-    said += [one.besides.format(f"{row[name]:.8g}") for name, one in told.items()]
-    return [*said, "starts on an orbit"] if case.motion and not case.is_spun_up else said
+def _parts(path: str, value: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(value, tuple) and len(value) == 1:
+        (value,) = value
+        path += f"{type(value).__name__}."
+    elif isinstance(value, tuple) and len(value) == 2 and value[0] == 0.0:
+        value, path = value[1], f"{path}in proportion."  # a profile that grows with x
+    if is_dataclass(value):
+        for name, part in stated(value).items():
+            yield from _parts(f"{path}{name}.", part)
+    elif value != ():
+        yield path.rstrip("."), value
 
 
-def problem_digest() -> str:
-    """Return the SHA-256 of the present source and numbers of the problem."""
-    return hashlib.sha256(SOURCE.read_bytes() + problem_numbers().encode()).hexdigest()
+def cases_csv() -> str:
+    """Return the rows of all cases as comma-separated values."""
+    rows = [row_of(case) for case in CASES.values()]
+    lines = [",".join(rows[0]), *(",".join(map(_cell, row.values())) for row in rows)]
+    return "\n".join([*lines, ""])
 
 
-def typeset(**options: Any) -> Any:
-    """Return the problem as the bytes of a PDF, or what `options` of typst.compile ask for."""
-    import typst  # noqa: PLC0415
-
-    return typst.compile(str(SOURCE), sys_inputs={"data": problem_numbers()}, **options)
-
-
-if __name__ == "__main__":
-    PDF.write_bytes(typeset())
-    DIGEST.write_text(problem_digest() + "\n", encoding="utf-8")
+def _cell(value: Any) -> str:
+    if value is None:
+        return ""
+    return " ".join(map(repr, value)) if isinstance(value, list) else str(value)

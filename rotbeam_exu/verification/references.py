@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -50,23 +50,17 @@ class Reference:
     _known: dict[tuple[float, float], float] = field(default_factory=dict, repr=False)
     _rows: dict[float, FloatArray] = field(default_factory=dict, repr=False)
 
-    def history(self, times: ArrayLike) -> FloatArray:
+    def history(self, times: ArrayLike, derivative: int = 0) -> FloatArray:
         """Return q [m] at times [s] up to the end of the case, in their shape.
 
-        In space lag, flap and twist, along one more axis.
+        In space lag, flap and twist, along one more axis. Its first `derivative`, the rate in the
+        turning frame [m/s], has a larger error.
 
         Raises
         ------
         ValueError
             If the case asks for no history, or times lie outside of it.
         """
-        return self._evaluated(times, 0)
-
-    def rate(self, times: ArrayLike) -> FloatArray:
-        """Return dq/dt in the turning frame [m/s], as `history` does; its error is larger."""
-        return self._evaluated(times, 1)
-
-    def _evaluated(self, times: ArrayLike, derivative: int) -> FloatArray:
         if self._history is None:
             raise ValueError(
                 f"case {self.case.name} asks for no history, but for {self.case.asked}"
@@ -202,17 +196,11 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
     return linear_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Sampled:
-    """A history of the tip as samples that a spline joins.
+class Sampled(NamedTuple):
+    """A history of the tip at `time` [s]: `q` [m], in space lag, flap and twist (samples, 3).
 
-    Attributes
-    ----------
-    time, q : ndarray (samples,)
-        [s], [m]; in space lag, flap and twist (samples, 3).
-    error : float
-        Over max|q|, of the worst component: of the samples by the next coarser computation, and of
-        the spline by the computation halfway between them.
+    `error`, over max|q|, of the worst component: of the samples by the next coarser computation,
+    and of the spline that joins them by the computation halfway between them.
     """
 
     time: FloatArray

@@ -12,22 +12,20 @@ from typing import Any
 
 import numpy as np
 
-from analytic import AnyBlade, Beam, SpinUp
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import h5py
-from ..paper import RAMP_TIMES
-from ..paper import SPEEDS as SPUN_UP
-from .cases import CASES, VERSION, Asked, Case, spin_up_case, stated
+from .cases import CASES, VERSION, Asked, Case, stated
 
 FILE = Path(__file__).parent / "data" / "references.nc"
 
 DIGEST = "b47671f0fcc83cabdcfb3aeb183c29d58b218c23b6cb07b2061a70db6da0b796"
 """SHA-256 of the file: all judgements stand on it, and no other file is taken."""
 
-_REMEDY = "install rotbeam-exu again, or make them by python -m rotbeam_exu.verification.regenerate"
+_REMEDY = "install rotbeam-exu again, or make them by tools/references.py of the repository"
 
 DURATION = 20.0
 """End of the shipped histories [s]."""
@@ -36,42 +34,6 @@ DURATION = 20.0
 def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
     """Return the quintic spline through samples."""
     return interpolate.make_interp_spline(time, q, k=5)
-
-
-def shipped_histories() -> dict[str, tuple[Case, Theory]]:
-    """Return whose histories are shipped: the paper's spin-ups, and the benchmark's cases."""
-    spin_ups = [SpinUp(omega=omega, ramp_time=time) for omega in SPUN_UP for time in RAMP_TIMES]
-    found = [
-        spin_up_case(Beam.reference(), one, DURATION, f"{one.omega:g}-{one.ramp_time:g}")
-        for one in spin_ups
-    ]
-    known = {key(case, BERNOULLI_EULER) for case in found}
-    own = [one for one in _by_theory() if one[0].asked is Asked.HISTORY and key(*one) not in known]
-    return {_named(*one): one for one in [*((case, BERNOULLI_EULER) for case in found), *own]}
-
-
-def shipped_tables() -> dict[str, tuple[Case, Theory]]:
-    """Return whose frequencies and steady states are shipped."""
-    asked = Asked.FREQUENCIES, Asked.STEADY
-    return {_named(*one): one for one in _by_theory() if one[0].asked in asked}
-
-
-def _by_theory() -> list[tuple[Case, Theory]]:
-    return [(case, theory) for case in CASES.values() for theory in case.theories]
-
-
-def _named(case: Case, theory: Theory) -> str:
-    number = case.theories.index(theory)
-    return f"{case.name} {number}" if number else case.name
-
-
-def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
-    """Return the blades and speeds [rad/s] whose backbones are shipped, by the name of a case."""
-    return {
-        case.name: (case.blade, case.rotation.omega)
-        for case in CASES.values()
-        if case.oscillates and case.is_spun_up
-    }
 
 
 def key(case: Case, theory: Theory) -> tuple[Any, ...]:
@@ -206,12 +168,3 @@ def shipped() -> Shipped:
         why = f"are of benchmark {attrs['benchmark']}, not {VERSION}"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
     return Shipped(data=data, attrs=attrs)
-
-
-def amplitudes() -> FloatArray:
-    """Return the peak |q|/L of shipped backbones: 0, and closer where resonances bend them.
-
-    Each ends where a resonance bends it too sharply; the amplitudes of case B are among them.
-    """
-    parts = (0.0, 0.4, 0.02), (0.4, 0.5, 0.005), (0.5, 0.6, 0.0025), (0.6, 0.885, 0.005)
-    return np.concatenate([low + np.arange(round((up - low) / d)) * d for low, up, d in parts])

@@ -5,8 +5,7 @@ import math
 import pytest
 
 from analytic import Beam
-from analytic.beam import BETA_1, warn_if_rpm
-from analytic.input_checks import RotbeamWarning
+from analytic.beam import BETA_1
 
 
 def test_scales_of_the_paper_beam(beam):
@@ -42,14 +41,3 @@ def test_bad_values_are_refused_by_name(name, value):
 def test_what_is_no_number_is_refused(value):
     with pytest.raises(TypeError, match="length must be a number in m"):
         Beam(length=value, area=1.0, second_moment=1.0, youngs_modulus=1.0, density=1.0)
-
-
-def test_a_speed_that_looks_like_rpm_gets_a_warning_with_the_numbers(beam):
-    with pytest.warns(RotbeamWarning, match=r"400 rad/s is 137 times .* \(2.909 rad/s\): rpm\?"):
-        warn_if_rpm(beam, 400.0)
-
-
-def test_the_speeds_of_the_paper_get_no_warning(beam, recwarn):
-    for omega in (0.0, 2.0, 8.0, 12.0):
-        warn_if_rpm(beam, omega)
-    assert not recwarn

@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from analytic import Blade, Section, reduced_model
@@ -41,13 +40,10 @@ def test_bad_blades_are_refused(make, sentence):
         (((0.0, 1.0), (0.5, math.nan), (1.0, 1.0)), "NaN: leave the station out if its cell is"),
         (((0.0, 1.0), (math.inf, 1.0)), "bending_stiffness\\[1\\] must be finite, got inf m"),
         (((0.0, "1.0"), (1.0, "2.0")), "is the text '1.0': read numbers, as numpy.loadtxt does"),
-        (np.array([["0", "1"], ["1", "1"]]), "is the text '0': read numbers"),
-        (("1", "2"), "is the text '1': read numbers"),
         ("blade.csv", "bending_stiffness must be a number in N m\\^2, got 'blade.csv'"),
         (((0.0, 1.0, 2.0),), "must be a station \\(x, value\\), got"),
         ((), "is empty: give a number, coefficients or stations"),
         (((0.0, 1.0), (0.5, 1.0)), "run from 0 to 0.5 m: give them from 0 to the length, 1 m"),
-        (((0.0, 1.0), (2.0, 1.0)), "run from 0 to 2 m: give them from 0 to the length, 1 m"),
         (((-0.1, 1.0), (1.0, 1.0)), "run from -0.1 to 1 m: give them from 0 to the length, 1 m"),
         (((0.0, 1.0), (0.8, 0.0), (1.0, 1.0)), "vanishes at x = 0.8 m, where it is 0: end the"),
         # Between the points of any grid.

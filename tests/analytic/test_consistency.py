@@ -7,14 +7,13 @@ from scipy.linalg import eigh
 from analytic import Theory, Variant, linear_modes, periodic_orbits, reduced_model
 from analytic.beam import BETA_1
 from analytic.blade_functions import blade_functions
-from analytic.quadrature import gauss_points, transverse_basis
-from analytic.reduced.any_blade import blade_oscillator, coupling_vector
+from analytic.quadrature import gauss_points
+from analytic.reduced.any_blade import blade_oscillator
 from analytic.reduced.lagrangian import energy_coefficients
-from analytic.reduced.rotating_mode import rotating_mode
-from analytic.reduced.shapes import CantileverMode
-from analytic.reduced.speeds import softening_speed
+from analytic.reduced.model_range import softening_speed
+from analytic.reduced.shapes import CantileverMode, rotating_mode
 from analytic.unit_blade import UNIFORM
-from tests.beams import deflection_matrices, unit_beam
+from tests.beams import clamped_basis, deflection_matrices, unit_beam
 
 STATIC = Variant(name="static", shape="rotating", axial="static")
 
@@ -47,10 +46,10 @@ def coupling_by_definition(w_bar, count):
     x, weights = gauss_points(48)
     mode = rotating_mode(w_bar)
     inner = x[:, np.newaxis] * x
-    basis = transverse_basis(count, inner.ravel()).slope.reshape(48, 48, count)
+    basis = clamped_basis(count, inner.ravel()).slope.reshape(48, 48, count)
     # A(φ) = -½ ∫₀ˣ φ₁' φ' dξ for every basis function.
     a_basis = -0.5 * x[:, np.newaxis] * np.einsum("ijk,ij,j->ik", basis, mode.slope(inner), weights)
-    phi, phi_1 = transverse_basis(count, x).value, mode.deflection(x)
+    phi, phi_1 = clamped_basis(count, x).value, mode.deflection(x)
     d = weights @ (a_basis * phi_1[:, np.newaxis] - mode.foreshortening(x)[:, np.newaxis] * phi)
     return d, weights @ phi_1**2
 
@@ -137,40 +136,6 @@ def test_no_other_mode_of_the_cantilever_comes_near_2_omega_n():
     assert min(mode.others[0] / (2 * mode.w_n) for mode in found) > 3.0
 
 
-def test_coupling_vector_is_the_coriolis_force_on_the_other_modes():
-    """From the energy itself: the force on p of w̄ ∫(X Ẏ - Y Ẋ) dx at p = 0 is 4w̄ D q q̇."""
-    x, weights = gauss_points(48)
-    inner = x[:, np.newaxis] * x
-    mode, w_bar, k = rotating_mode(5.0), 5.0, 2
-
-    def fields(points, q, p):
-        basis = transverse_basis(3, points.ravel())
-        return (
-            q * mode.deflection(points) + p * basis.value[:, k].reshape(points.shape),
-            q * mode.slope(points) + p * basis.slope[:, k].reshape(points.shape),
-        )
-
-    def energy(q, p, q_dot, p_dot):
-        v, _ = fields(x, q, p)
-        v_dot, _ = fields(x, q_dot, p_dot)
-        slope, slope_dot = fields(inner, q, p)[1], fields(inner, q_dot, p_dot)[1]
-        u = -0.5 * x * (slope**2 @ weights)
-        u_dot = -x * (slope * slope_dot @ weights)
-        return w_bar * weights @ ((x + u) * v_dot - v * u_dot)
-
-    # The energy is at most quadratic in each variable, so central differences are exact.
-    q, q_dot = 0.7, 0.4
-    in_p = (energy(q, 1, q_dot, 0) - energy(q, -1, q_dot, 0)) / 2
-
-    def momentum(q):
-        return (energy(q, 0, q_dot, 1) - energy(q, 0, q_dot, -1)) / 2
-
-    force = in_p - q_dot * (momentum(q + 1) - momentum(q - 1)) / 2
-    of = blade_functions(UNIFORM, 20)
-    found = coupling_vector(of, of.first_mode(w_bar).coefficients)
-    assert found[k] == pytest.approx(force / (4 * w_bar * q * q_dot), rel=1e-11)
-
-
 def test_tip_of_frm_carries_the_other_modes(beam):
     """It vanishes at rest; in rotation the tip's share is that of p in (K + M d²/dτ²) p = f."""
     assert reduced_model(beam, 0.0, "FrM").perturbation.h2 == pytest.approx(0.0, abs=1e-14)
@@ -182,6 +147,6 @@ def test_tip_of_frm_carries_the_other_modes(beam):
     # Forced at 2ω_n, mode by mode.
     reciprocal, vectors = eigh(M, K)
     p = vectors @ (vectors.T @ force / (1 - 4 * model.w_n**2 * reciprocal))
-    tip = transverse_basis(14, np.array([1.0])).value[0]
+    tip = clamped_basis(14, np.array([1.0])).value[0]
     # q q̇ of q = a cos ψ is -½ω_n a² sin 2ψ.
     assert model.perturbation.h2 == pytest.approx(0.5 * model.w_n * (tip @ p), rel=1e-8)

@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import Beam, Theory, linear_modes
-from analytic.exact.beam.discretization import continuum, resolved_model
-from analytic.exact.beam.steady import SteadyBeam, solve_modes
-from analytic.quadrature import gauss_points
+from analytic.exact.beam.steady import continuum, resolved_model
 from tests.beams import unit_beam
 
 # In-plane; Wright et al. 1982, Hodges and Rutkowski 1981 and Banerjee 2000 give the squares
@@ -33,16 +31,6 @@ def test_extensible_first_frequency(beam, omega):
     assert first == pytest.approx(EXTENSIBLE[omega], abs=1e-8)
 
 
-def test_frequencies_differ_from_the_inextensible_in_proportion_to_the_slenderness(fitted_order):
-    slenderness = 1e-6 * 2.0 ** np.arange(5)
-    exact = solve_modes(SteadyBeam(continuum(0.0, 20, 1), 6.0)).frequencies[0]
-    apart = [
-        abs(solve_modes(SteadyBeam(continuum(mu, 20, 12), 6.0)).frequencies[0] - exact)
-        for mu in slenderness
-    ]
-    assert fitted_order(slenderness, apart) == pytest.approx(1.0, abs=0.01)
-
-
 @pytest.mark.parametrize("rate", [0.5, 6.0, 14.0])
 def test_steady_state_is_the_rotating_rod(rate):
     model = continuum(1e-2, 16, 14)
@@ -51,19 +39,6 @@ def test_steady_state_is_the_rotating_rod(rate):
     slope = model.slope(model.steady_state(rate), x)
     assert slope.imag == pytest.approx(0.0, abs=0.0)
     assert slope.real == pytest.approx(np.cos(k * x) / np.cos(k), rel=1e-10)
-
-
-@pytest.mark.parametrize(
-    ("omega", "stretch"),
-    [(2.0, 2.73958e-5), (4.0, 1.095831e-4), (6.0, 2.465620e-4), (8.0, 4.383324e-4)],
-)
-def test_stretch_of_the_paper_beam(beam, omega, stretch):
-    model = continuum(beam.slenderness, 16, 10)
-    rate = omega / beam.frequency_scale
-    tip = model.tip(model.steady_state(rate)[None])[0].real
-    # Printed is the leading order mω²L²/(3EA); the exact stretch is larger by 2(kL)²/5 of it.
-    exact = stretch * (1.0 + 0.4 * beam.slenderness * rate**2)
-    assert (tip - 1.0) * beam.length == pytest.approx(exact, rel=3e-6)
 
 
 def test_axial_frequencies_at_rest_are_those_of_a_rod():
@@ -84,19 +59,6 @@ def test_shapes_are_clamped_and_one_at_the_tip(beam):
     assert shapes[2] == pytest.approx(1.0)
 
 
-def test_rotary_inertia_lowers_frequencies_by_the_rayleigh_quotient(beam):
-    thick = unit_beam(1e-4)
-    plain = linear_modes(thick, 0.0, 1)
-    heavy = linear_modes(thick, 0.0, 1, theory=Theory(rotary_inertia=True))
-    x, weights = gauss_points(20)
-    h = 1e-5
-    shape = plain.shapes(x)[:, 0]
-    slope = (plain.shapes(x + h)[:, 0] - plain.shapes(x - h)[:, 0]) / (2.0 * h)
-    ratio = thick.slenderness * (weights @ slope**2) / (weights @ shape**2)
-    drop = 1.0 - heavy.frequencies[0] / plain.frequencies[0]
-    assert drop == pytest.approx(0.5 * ratio, rel=1e-3)  # first order in μ = 1e-4
-
-
 def test_a_speed_that_tears_the_beam_is_refused(beam):
     soft = unit_beam(1e-2)
     linear_modes(soft, 15.5)
@@ -107,7 +69,7 @@ def test_a_speed_that_tears_the_beam_is_refused(beam):
 def test_a_mode_beyond_the_resolved_ones_is_refused(beam, monkeypatch):
     with pytest.raises(ValueError, match="mode 11 is beyond the 10 that 20 functions resolve"):
         linear_modes(beam, 1.0, 11)
-    monkeypatch.setattr("analytic.exact.beam.discretization.MOST_FUNCTIONS", 20)
+    monkeypatch.setattr("analytic.exact.beam.steady.MOST_FUNCTIONS", 20)
     assert resolved_model(beam, 10, Theory(), 20).size
     for mode, functions in ((11, 20), (1, 21)):
         with pytest.raises(ValueError, match="at most 20 functions are taken, .* 10 modes"):

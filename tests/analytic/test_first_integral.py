@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
 from analytic import VARIANTS, reduced_model
-from analytic.reduced.model import model_at
+from analytic.reduced.model_range import model_at
 from analytic.reduced.oscillator import Oscillator
 
 

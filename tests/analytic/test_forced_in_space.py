@@ -19,10 +19,11 @@ from analytic import (
 )
 from analytic.exact.driven.transient import grid_of, integrated
 from analytic.motion import SteadyRotation
+from tests.beams import unit_beam
 
 THIN = Theory(extension=False)
 BLADE = (
-    Beam.from_stiffness(length=1.0, axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0)
+    unit_beam(1e-4)
     .with_section_out_of_plane(1.0 / 16.0, 0.08)
     .with_damping(Damping(bending=0.02, external=0.2))
 )

@@ -11,7 +11,6 @@ from analytic import (
     Beam,
     Blade,
     Damping,
-    Gravity,
     PointMass,
     Rectangle,
     RotbeamWarning,
@@ -25,17 +24,14 @@ from analytic import (
     campbell,
     damping_ratios,
     design_ramp,
-    forced_response,
     linear_modes,
     linear_response,
     periodic_orbits,
-    planar_stability,
     residual_amplitude,
-    spin_up_response,
     stability_limit,
 )  # fmt: skip
 from analytic.section import OutOfPlane
-from rotbeam_exu import natural_frequencies, simulate, sweep
+from rotbeam_exu import natural_frequencies, simulate
 
 BEAM = Beam.reference()
 STRIP = BEAM.with_shape(Rectangle())
@@ -50,6 +46,13 @@ OTHERS = {
     "load": PUSH, "frequencies": [3.6, 3.7], "duration": 2.0, "omegas": [2.0, 4.0],
     "amplitude": 0.1, "ramp_times": [3.0], "ratios": [2.0, 3.0], "substructures": 2,
 }  # fmt: skip
+
+
+def needed(function):
+    """Arguments of a function, but the beam, that it cannot do without."""
+    return {name: OTHERS[name] for name in inspect.signature(function).parameters if name in OTHERS}
+
+
 OF_A_BEAM = [
     (package, name)
     for package in (analytic, rotbeam_exu)
@@ -65,10 +68,8 @@ OF_A_BEAM = [
 )
 def test_what_is_no_beam_is_refused(package, name, wrong):
     function = getattr(package, name)
-    _, *others = inspect.signature(function).parameters.values()
-    given = {p.name: OTHERS[p.name] for p in others if p.default is p.empty}
     with pytest.raises((TypeError, ValueError), match="a Beam or a Blade is needed|uniform Beam"):
-        function(wrong, **given)
+        function(wrong, **needed(function))
 
 
 def test_there_are_as_many_as_there_are():
@@ -82,7 +83,6 @@ FLAGS = {
     "linear_response": lambda f: linear_response(BEAM, SLOW, [1.0], foreshortening=f),
     "residual_amplitude": lambda f: residual_amplitude(BEAM, SLOW, corrected=f),
     "Variant": lambda f: Variant(name="mine", shape="rotating", axial="consistent", coriolis=f),
-    "sweep": lambda f: sweep(BEAM, omegas=[6.0], ramp_times=[3.0], history=f),
 }
 
 
@@ -98,25 +98,19 @@ def test_numpys_flags_are_flags():
     assert Theory(extension=np.False_) == Theory(extension=False)
 
 
-THEORIES = {
-    "linear_modes": lambda one: linear_modes(BEAM, 6.0, theory=one),
-    "flap": lambda one: linear_modes(STRIP, 6.0, plane="flap", theory=one),
-    "periodic_orbits": lambda one: periodic_orbits(BEAM, 6.0, [0.1], theory=one),
-    "backbone_curve": lambda one: backbone_curve(BEAM, 6.0, theory=one),
-    "backbone": lambda one: backbone(BEAM, 6.0, theory=one),
-    "forced_response": lambda one: forced_response(DAMPED, 6.0, PUSH, [3.6, 3.7], theory=one),
-    "weight": lambda one: forced_response(DAMPED, [3.6, 3.7], Gravity(), theory=one),
-    "planar_stability": lambda one: planar_stability(STRIP, 6.0, 0.1, theory=one),
-    "stability_limit": lambda one: stability_limit(STRIP, 6.0, theory=one),
-    "spin_up_response": lambda one: spin_up_response(BEAM, SLOW, [1.0], theory=one),
-}
+OF_A_THEORY = [
+    (package, name)
+    for package, name in OF_A_BEAM
+    if "theory" in inspect.signature(getattr(package, name)).parameters
+]
 
 
-@pytest.mark.parametrize("name", THEORIES)
+@pytest.mark.parametrize(("package", "name"), OF_A_THEORY, ids=str)
 @pytest.mark.parametrize("wrong", [None, "Timoshenko", 0.3, Theory])
-def test_a_theory_is_a_theory(name, wrong):
+def test_a_theory_is_a_theory(package, name, wrong):
+    function, blade = getattr(package, name), DAMPED if name == "forced_response" else STRIP
     with pytest.raises(TypeError, match=r"theory must be a Theory, got .* as Theory\(ext"):
-        THEORIES[name](wrong)
+        function(blade, **needed(function), theory=wrong)
 
 
 @pytest.mark.parametrize(
@@ -129,12 +123,7 @@ def test_a_theory_is_a_theory(name, wrong):
         (lambda: stability_limit(STRIP, 6.0, largest=1e-300), "largest must be at least 0.0001"),
         (lambda: campbell(BEAM, []), "omegas must be a sequence of numbers"),
         (lambda: campbell(BEAM, None), "omegas must be numbers in rad/s, got None"),
-        (lambda: backbone_curve(BEAM, 6.0, coefficients=10**9), "coefficients must be at most"),
         (lambda: design_ramp(BEAM, 2.0, 5.0, modes=10**6), "modes must be at most 20"),
-        (
-            lambda: forced_response(DAMPED, 6.0, PUSH, [3.6, 3.7], harmonics=10**6),
-            "harmonics must be at most 100",
-        ),
         (lambda: damping_ratios(DAMPED, 0.0, 200), "count must be at most 128, got 200"),
         (lambda: Blade(length=8.0, section=None), "section must be a Section, got None"),
         (
@@ -149,15 +138,9 @@ def test_a_theory_is_a_theory(name, wrong):
         ),
         (lambda: BEAM.with_damping(None), "damping must be a Damping, got None"),
         (
-            lambda: OutOfPlane(bending_ratio=4.0, torsion_ratio=np.ma.masked),
-            "torsion_ratio must be a number, got masked",
-        ),
-        (
             lambda: OutOfPlane(bending_ratio=4.0, torsion_ratio=np.array([0.5, 1.0])),
             "torsion_ratio must be a number",
         ),
-        (lambda: linear_modes(BEAM, np.timedelta64(6, "s")), "omega must be a number in rad/s"),
-        (lambda: linear_modes(BEAM, 6.0, np.timedelta64(2)), "count must be a whole number"),
         (lambda: simulate(BEAM, SLOW, element=3), "element must be the name of a formulation"),
         (lambda: simulate(BEAM, None), "spin_up must be a SpinUp"),
         (lambda: natural_frequencies(BEAM, 6.0, element=None), "element must be the name"),
@@ -230,8 +213,6 @@ def test_rubber_and_usual_units_are_not(modulus, density):
 def test_a_twisted_blade_is_answered_in_space_or_refused(package, name):
     """Never by the answer of the straight one."""
     function = getattr(package, name)
-    _, *others = inspect.signature(function).parameters.values()
-    given = {p.name: OTHERS[p.name] for p in others if p.default is p.empty}
     in_space = {
         "backbone", "backbone_curve", "campbell", "damping_ratios", "forced_response",
         "linear_modes", "periodic_orbits", "spin_up_response", "steady_state",
@@ -239,4 +220,4 @@ def test_a_twisted_blade_is_answered_in_space_or_refused(package, name):
     if name in in_space:
         return
     with pytest.raises(ValueError, match=r"a straight blade in its plane|uniform Beam"):
-        function(STRIP.with_twist(0.5), **given)
+        function(STRIP.with_twist(0.5), **needed(function))

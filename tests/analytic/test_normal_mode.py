@@ -7,8 +7,7 @@ import pytest
 
 from analytic import Theory, Variant, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
-from analytic.reduced.any_blade import blade_oscillator
-from analytic.reduced.normal_mode import normal_mode, product, turn
+from analytic.reduced.any_blade import blade_oscillator, normal_mode, product, turn
 
 
 def test_series_of_a_product_and_of_a_turn():

@@ -97,7 +97,6 @@ def test_they_are_values_and_travel(beam):
         (lambda: UNIT.with_section_out_of_plane(0.0), "bending_ratio must be positive"),
         (lambda: UNIT.with_section_out_of_plane(1.0, -1.0), "torsion_ratio must be positive"),
         (lambda: UNIT.with_section_out_of_plane(1.0, 1.0, -1.0), "polar_inertia must not be"),
-        (lambda: UNIT.with_shape(Rectangle(ratio=1e-4)), "between 0.001 and 1000, got 0.0001"),
         (lambda: Rectangle(ratio=2.0, poisson_ratio=0.6), "poisson_ratio must be at most 0.5"),
         (lambda: UNIT.with_shape(Tube()).with_taper(height=0.5), "taper both alike"),
     ],

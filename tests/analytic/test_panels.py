@@ -9,14 +9,11 @@ from scipy.optimize import brentq
 from analytic import (
     Blade,
     Section,
-    SpinUp,
     Theory,
     linear_modes,
     periodic_orbits,
     reduced_model,
-    spin_up_response,
 )
-from analytic.exact.linear.unstretched import unstretched_frequencies
 from tests.beams import UNIT
 
 
@@ -62,8 +59,6 @@ def test_a_mass_inside_the_span_is_met_to_all_digits(mass, inertia):
     assert found == pytest.approx(exact, rel=1e-9)
     assert blade.omega_0 == pytest.approx(exact[0], rel=1e-12)
     assert reduced_model(blade, 0.0, "FrM").omega_n == pytest.approx(exact[0], rel=1e-10)
-    # The axial motion does not know of bending at rest.
-    assert unstretched_frequencies(blade, 0.0)[0] == pytest.approx(exact[0], rel=1e-9)
 
 
 def test_a_step_of_the_section_is_the_limit_of_a_steep_slope():
@@ -78,25 +73,6 @@ def test_a_step_of_the_section_is_the_limit_of_a_steep_slope():
     # The slope's compliance is off by the order of its width.
     assert errors[0] < 2e-3
     assert errors[0] / errors[1] == pytest.approx(2.0, abs=0.05)
-
-
-@pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
-def test_stations_of_a_uniform_blade_change_nothing():
-    x = np.linspace(0.0, 1.0, 5)
-    flat = Section(
-        axial_stiffness=1e9, mass_per_length=1.0, bending_stiffness=tuple((a, 1.0) for a in x)
-    )
-    blade = UNIT.with_hub_radius(0.5).with_tip_mass(0.3)
-    cut = Blade(length=1.0, section=flat, hub_radius=0.5, point_masses=blade.point_masses)
-    one, other = (linear_modes(b, 4.0).frequencies for b in (blade, cut))
-    assert other == pytest.approx(one, rel=1e-9)
-    one, other = (reduced_model(b, 4.0, "FrM").lambda_omega for b in (blade, cut))
-    assert other == pytest.approx(one, abs=1e-9)
-    one, other = (periodic_orbits(b, 4.0, [0.3]) for b in (blade, cut))
-    assert other.frequency == pytest.approx(one.frequency, rel=1e-9)
-    time, spin_up = np.linspace(0.0, 6.0, 7), SpinUp(omega=2.0, ramp_time=3.0)
-    one, other = (spin_up_response(b, spin_up, time, tolerance=1e-7).q for b in (blade, cut))
-    assert np.abs(other - one).max() < 1e-6 * np.abs(one).max()
 
 
 def test_softening_with_a_mass_inside_is_that_of_the_orbits():

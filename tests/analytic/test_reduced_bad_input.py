@@ -83,6 +83,7 @@ def test_a_warning_points_at_its_caller_and_ends_where_the_model_is_right(beam):
         warnings.simplefilter("error")
         MODEL.frequency(0.2)
         reduced_model(beam, 10.0, "FrM")
+        reduced_model(beam, 24.0, "FrM")
         for variant in VARIANTS:
             reduced_model(beam, 8.0, variant)
 

@@ -20,7 +20,7 @@ from analytic import (
     spin_up_response,
 )
 from analytic.reduced.any_blade import blade_oscillator
-from analytic.spin_up.modes import modes_over_speed
+from analytic.spin_up.residual import modes_over_speed
 from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
 
 # By code that shares nothing with this one: speed, ramp time, what the exact transient leaves.
@@ -186,14 +186,6 @@ def test_largest_deflection_on_the_way_is_kept(beam):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("omega", "ramp_time"), [case[:2] for case in QUIET])
-def test_designed_ramps_of_all_quiet_durations(beam, omega, ramp_time):
-    left = residual_amplitude(beam, design_ramp(beam, omega, ramp_time), exact=True)
-    for T in (ramp_time, 2.0 * ramp_time):
-        assert left < 0.1 * residual_amplitude(beam, eq_1(omega, T), exact=True)
-
-
-@pytest.mark.slow
 def test_limits_are_kept(beam):
     limit = 0.8 * 2.0 * 6.0 / 7.6487
     ramp = design_ramp(beam, 6.0, 7.6487, acceleration_limit=limit)
@@ -215,8 +207,6 @@ def test_no_such_ramp(beam):
         design_ramp(beam, 6.0, 4.0, largest=0.15)
     with pytest.raises(ValueError, match="takes 7.5 s at least from 0 to 6 rad/s"):
         design_ramp(beam, 6.0, 7.0, acceleration_limit=0.8)
-    with pytest.raises(ValueError, match="is below the 6 rad/s at one end"):
-        design_ramp(beam, 6.0, 7.0, speed_limit=5.0)
     with pytest.raises(ValueError, match="nothing to change"):
         design_ramp(beam, 6.0, 7.0, start=6.0)
 
@@ -224,14 +214,10 @@ def test_no_such_ramp(beam):
 def test_bad_input(beam):
     with pytest.raises(TypeError, match="must be a SpinUp"):
         residual_amplitude(beam, SteadyRotation(omega=6.0))
-    with pytest.raises(ValueError, match="backbone of mode 1"):
-        residual_amplitude(beam, eq_1(6.0, 3.0), mode=2, corrected=True)
     with pytest.raises(ValueError, match="ramp_times must be positive"):
         residual_amplitude(beam, eq_1(6.0, 3.0), [1.0, 0.0])
     with pytest.raises(ValueError, match="take a speed above zero"):
         quiet_ramp_times(beam, 0.0)
-    with pytest.raises(ValueError, match="take at most"):
-        quiet_ramp_times(beam, 6.0, longest=1e9)
 
 
 @pytest.mark.slow  # spin-ups in any units are in test_random_units

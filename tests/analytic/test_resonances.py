@@ -50,22 +50,28 @@ def multipliers(monkeypatch):
     monkeypatch.setattr(internal_resonance, "floquet_multipliers", found)
 
 
+def of(modes=MODES, mode=1):
+    """The path of a mode, whose unit of frequency is 3 rad/s."""
+    beam = SimpleNamespace(frequency_scale=3.0)
+    return SimpleNamespace(modes=modes, mode=mode, beam=beam, at_resonance="")
+
+
 def along(amplitudes, **options):
     return [orbit_at(a, **options) for a in amplitudes]
 
 
 def test_ratios_are_followed_through_whole_and_half_numbers():
     amplitudes = np.arange(0.05, 0.8, 0.05)
-    modes, ratios = frequency_ratios(along(amplitudes), 3.0 * MODES, 1)
+    modes, ratios = frequency_ratios(of(3.0 * MODES), along(amplitudes))
     assert modes == [2, 3, 4, 5]
     assert ratios == pytest.approx(MODES[1:5] + FACTOR * amplitudes[:, None] ** 2, abs=1e-12)
     # Of the second mode the first is among the others.
-    assert frequency_ratios(along([0.05]), MODES / 5.5, 2)[0] == [1, 3, 4, 5]
+    assert frequency_ratios(of(MODES / 5.5, 2), along([0.05]))[0] == [1, 3, 4, 5]
 
 
 def test_resonances_are_where_ratios_are_whole_or_the_harmonic_has_its_pole():
     amplitudes = np.arange(0.05, 0.71, 0.025)
-    found = resonances_along(along(amplitudes), MODES, 1, 3.0)
+    found = resonances_along(of(), along(amplitudes))
     assert [(one.harmonic, one.mode) for one in found] == [(6, 2), (17, 3), (7, 2)]
     assert [one.amplitude for one in found] == sorted(one.amplitude for one in found)
     by_number = {one.harmonic: one for one in found}
@@ -76,9 +82,9 @@ def test_resonances_are_where_ratios_are_whole_or_the_harmonic_has_its_pole():
     for one in found:
         assert one.frequency == pytest.approx(3.0 * (2.0 - one.amplitude**2), abs=2e-3)
     # Without Coriolis forces an orbit has no even harmonics.
-    still = resonances_along(along(amplitudes, rate=0.0), MODES, 1, 3.0)
+    still = resonances_along(of(), along(amplitudes, rate=0.0))
     assert [(one.harmonic, one.mode) for one in still] == [(17, 3), (7, 2)]
-    flapping = resonances_along(along(amplitudes, setting=1e-17), MODES, 1, 3.0)
+    flapping = resonances_along(of(), along(amplitudes, setting=1e-17))
     assert [(one.harmonic, one.mode) for one in flapping] == [(17, 3), (7, 2)]
 
 
@@ -119,23 +125,23 @@ def test_a_resonance_is_pinned_down_between_two_orbits(background):
 
 def test_a_harmonic_stands_out_that_is_larger_than_the_one_before_and_near_a_mode():
     orbit = orbit_at(0.35)  # 5.5/1.8775 = 2.93 and 17.3/1.8775 = 9.2: near 3 and none
-    assert outstanding(orbit, MODES, 1) == []  # the sixth is large, and 2.93 not near six
-    assert outstanding(orbit, MODES * 2.0, 1) == [6]  # 11/1.8775 = 5.86
-    assert outstanding(orbit, MODES * 1.8, 1) == []  # 5.27 is 12 % away
+    assert outstanding(of(), orbit) == []  # the sixth is large, and 2.93 not near six
+    assert outstanding(of(MODES * 2.0), orbit) == [6]  # 11/1.8775 = 5.86
+    assert outstanding(of(MODES * 1.8), orbit) == []  # 5.27 is 12 % away
     third = orbit_at(0.1)
     third.sizes[2] = 0.02
-    assert outstanding(third, MODES * 1.07, 1) == [3]  # 5.9/1.99 = 2.96
+    assert outstanding(of(MODES * 1.07), third) == [3]  # 5.9/1.99 = 2.96
     orbit.sizes[4] = 2.0 * orbit.sizes[5]
-    assert outstanding(orbit, MODES * 2.0, 1) == []  # less than the one before
+    assert outstanding(of(MODES * 2.0), orbit) == []  # less than the one before
     small = orbit_at(0.1, pole=9.0)  # 1e-4 of the first: drowned
-    assert outstanding(small, MODES * 2.1, 1) == []
+    assert outstanding(of(MODES * 2.1), small) == []
 
 
 def test_the_nearest_resonance_is_told_with_its_distance():
     """5.66 and 17.22: of 6 and 17 the higher is nearer, 1.3 %, but less felt."""
-    said = nearest_resonance(along([0.05, 0.1, 0.15, 0.2]), MODES, 1)
+    said = nearest_resonance(of(), along([0.05, 0.1, 0.15, 0.2]))
     assert "harmonic 6 is 6.0 % from mode 2" in said
-    said = nearest_resonance(along([0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.33]), MODES, 1)
+    said = nearest_resonance(of(), along([0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.33]))
     assert "harmonic 6 is 1.1 % from mode 2" in said
 
 
@@ -144,20 +150,20 @@ def test_a_warning_names_the_harmonic_and_its_distance_once():
     orbits = along([0.3, 0.34, 0.35])
     modes = 2.0 * MODES
     with pytest.warns(RotbeamWarning) as told:
-        warn_of_resonances(orbits, modes, 1, 3.0, "")
+        warn_of_resonances(of(modes), orbits)
     (said,) = [str(one.message) for one in told]
     drive = f"{18 * orbits[1].frequency:.4f} rad/s"
     assert f"from a = 0.34 on, harmonic 6 of the orbit of mode 1 ({drive})" in said
     assert "is 0.6 % from mode 2" in said  # 0.0376 of 6
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        warn_of_resonances(along([0.1, 0.2]), modes, 1, 3.0, "")  # 5.54 and 5.66: 0.3 of a turn
-        warn_of_resonances([], modes, 1, 3.0, "")
+        warn_of_resonances(of(modes), along([0.1, 0.2]))  # 5.54 and 5.66: 0.3 of a turn
+        warn_of_resonances(of(modes), [])
 
 
 def test_the_nearest_resonance_is_that_of_the_last_orbit():
     """At a = 0.65 ratios are 7.19 and 16.455, from 6.31 and 16.895 before."""
-    said = nearest_resonance(along([0.05, 0.25, 0.45, 0.65]), MODES, 1)
+    said = nearest_resonance(of(), along([0.05, 0.25, 0.45, 0.65]))
     assert "harmonic 7 is 2.6 % from mode 2" in said
 
 

@@ -18,11 +18,9 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
-from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.state import Driven
-from analytic.exact.beam.steady import SteadyBeam
-from analytic.exact.driven.loading import pushes, unit_load
-from analytic.profiles import evaluated
+from analytic.exact.beam.steady import SteadyBeam, blade_continuum
+from analytic.exact.driven.transient import pushes, unit_load
 from analytic.quadrature import gauss_points
 from analytic.theory import BERNOULLI_EULER
 
@@ -30,13 +28,6 @@ RIGID = Theory(extension=False)
 SECTION = Section(axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0)
 STRAIGHT = Blade(length=1.0, section=SECTION).with_section_out_of_plane(0.25, 0.2)
 X = np.array([0.0, 0.3, 0.6, 1.0])
-
-
-def bending_moment(found, x, blade):
-    """EI κ of a planar answer's coordinates, by the section's law and not by its equations."""
-    model, at = found._model, np.asarray(x) / blade.length
-    EI = blade.bending_stiffness * evaluated(blade.unit.bending, at)
-    return EI / blade.length * (found._state[0, :, : model.bending] @ model._across.strain(at).T)
 
 
 @pytest.mark.parametrize("taper", [0.0, 0.5])
@@ -109,21 +100,6 @@ def test_a_load_at_the_tip_bends_by_its_lever_whatever_the_shape():
     turn = np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
     assert loads.force[0] == pytest.approx(turn @ force, rel=1e-10)
     assert loads.moment[0] == pytest.approx(turn @ closed[0], rel=1e-9)
-
-
-def test_the_root_moment_is_that_of_the_curvature_in_the_limit_of_functions(beam, spin_up):
-    """By d'Alembert within 1e-8 of the converged one; the curvature's comes to it."""
-    times, x = np.linspace(0.0, 4.0, 21), [0.0, 2.5]
-    fine = spin_up_response(beam, spin_up, times, tolerance=1e-10)
-    best = fine.section_loads(x).moment
-    scale = np.abs(best).max()
-    assert bending_moment(fine, x, beam) == pytest.approx(best, abs=1e-9 * scale)
-    errors = []
-    for tolerance in (1e-3, 1e-6):
-        found = spin_up_response(beam, spin_up, times, tolerance=tolerance)
-        errors.append(np.abs(bending_moment(found, x, beam) - best).max() / scale)
-        assert found.section_loads(x).moment == pytest.approx(best, abs=tolerance * scale)
-    assert errors[1] < 1e-2 * errors[0]
 
 
 def test_damped_thick_and_loaded_the_moment_is_that_of_the_section_too(beam):

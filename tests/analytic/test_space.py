@@ -20,18 +20,18 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
-from analytic.damping import UNDAMPED
-from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
-from analytic.exact.beam.steady import SteadyBeam, steady_rotation
-from analytic.exact.driven.loading import DrivenBlade
+from analytic.exact.beam.steady import SteadyBeam, blade_continuum, steady_rotation
+from analytic.exact.driven.forced import DrivenBlade
 from analytic.exact.plane.growth import STEPS, grown
 from analytic.exact.space.steady import SpaceBlade, space_continuum
 from analytic.methods.floquet import flow
 from analytic.methods.system import Tangent
-from analytic.quadrature import axial_basis, gauss_points
+from analytic.parts import UNDAMPED
+from analytic.quadrature import gauss_points
 from analytic.section import OutOfPlane
 from analytic.theory import BERNOULLI_EULER
+from tests.beams import clamped_basis, unit_beam
 
 RIGID = math.inf
 BEAM = Beam.reference()
@@ -85,7 +85,7 @@ class Across:
         # Which changes the growth by 1e-3 and 1e-1 of itself.
         (SLENDER, 0.3917, Theory(trapeze=False), DAMPING, 1e-8),
         # The inertia of the sections against flap, which L2 leaves out: 4e-5.
-        (STRIP, 0.045, Theory(), UNDAMPED, 1e-4),
+        pytest.param(STRIP, 0.045, Theory(), UNDAMPED, 1e-4, marks=pytest.mark.slow),
         (STRIP, 0.045, Theory(), DAMPING, 1e-4),
         (STRIP, 0.045, Theory(trapeze=False, rotary_inertia=True), UNDAMPED, 1e-4),
     ],
@@ -156,19 +156,6 @@ def test_small_orbits_leave_each_mode_its_damping_ratio():
         assert np.abs(multipliers - wanted).min() < 1e-4
 
 
-def test_damping_takes_its_decay_from_the_growth():
-    """Mathieu's tongue of twice a mode: what grows loses ζν [1/s], to first order."""
-    section, amplitude, ratio = SLENDER, 0.3917, 1e-4
-    blade = BEAM.with_section_out_of_plane(**asdict(section))
-    free, damped = (planar_stability(blade, 2.0, amplitude, damping=d) for d in (0.0, ratio))
-    assert free.kind == damped.kind
-    assert free.modes == (("flap 1",),)
-    lost = float(free.growth_rate[0] - damped.growth_rate[0])
-    flap = linear_modes(blade, 2.0, 1, plane="flap").frequencies[0]
-    # The orbit bends the mode a little; ratios of higher modes are higher in 1/s.
-    assert lost == pytest.approx(ratio * flap, rel=1e-2)
-
-
 @pytest.mark.parametrize(
     ("blade", "digits"),
     # What 18 functions and the round-off of K leave; at a mass inside e jumps, and w' with it.
@@ -177,9 +164,7 @@ def test_damping_takes_its_decay_from_the_growth():
         (BEAM.with_hub_radius(4.0).with_tip_mass(0.5), 2e-8),
         (BEAM.with_taper(0.3, 0.3).with_point_mass(0.2, 5.0), 2e-6),
         (
-            Beam.from_stiffness(
-                length=1.0, axial_stiffness=2e3, bending_stiffness=1.0, mass_per_length=1.0
-            ).blade,
+            unit_beam(5e-4).blade,
             2e-8,
         ),
     ],
@@ -247,7 +232,7 @@ def test_the_propeller_moment_is_that_of_the_moving_plane():
         space.stiffness(planar, still, v, still)[0, n:, n:] for v in (still, swinging)
     )
     x, dx = gauss_points(24)
-    phi = axial_basis(n, x).value
+    phi = clamped_basis(n, x, 1).value
     iota = 1e-2 * (1.0 - 0.5) / (1.0 + 0.5)
     wanted = phi.T @ ((dx * iota * ((2.0 + 1.5 * x) ** 2 - 4.0))[:, None] * phi)
     # The tension of the swing adds what the trapeze effect makes of it: μ to 1e-2.
@@ -290,17 +275,6 @@ def test_a_bar_bent_on_edge_buckles_where_timoshenko_says(curvature, known, digi
         return np.linalg.eigvalsh(K / small)[0]
 
     assert optimize.brentq(least, 0.75 * known, 1.17 * known) == pytest.approx(known, abs=digits)
-
-
-@pytest.mark.parametrize("bending_ratio", [1.0, 1.0 + 1e-13])
-@pytest.mark.parametrize("torsion_ratio", [0.1, 1.0, RIGID])
-def test_at_rest_a_round_section_has_the_multiplier_one_twice_more(bending_ratio, torsion_ratio):
-    """The plane may be turned about the blade; also where the twist is computed, and follows."""
-    blade = BEAM.with_section_out_of_plane(bending_ratio, torsion_ratio, 0.0)
-    found = planar_stability(blade, 0.0, 0.3)
-    nearest = np.sort(np.abs(found.multipliers[0] - 1.0))[:2]
-    assert nearest == pytest.approx(0.0, abs=2e-5)  # a double one: root of the round-off
-    assert found.stable.all()
 
 
 def test_torsion_does_not_matter_to_a_round_section():
@@ -354,18 +328,3 @@ def test_edges_of_the_tongues(section, a, edge, into):
     assert inside.kind == "period doubling"
     assert inside.modes[0] == "flap 1"
     assert not outside.unstable
-
-
-def test_the_stretch_moves_the_narrow_tongue(beam):
-    """By 3.3e-4 of w̄ in 4.4: what is unstable without extension is not with it."""
-    inside = 4.43220 - 1e-4
-    assert growth(ROUND, inside, 0.5).unstable
-    assert not growth(ROUND, inside, 0.5, theory=Theory()).unstable
-    assert growth(ROUND, inside - 3.3e-4, 0.5, theory=Theory()).unstable
-
-
-def test_onset_of_a_section_that_does_not_twist():
-    at_two = 2.0 / BEAM.frequency_scale
-    for sign in (-1.0, 1.0):
-        found = growth(SLENDER, at_two, 0.39117 + sign * 1e-4, theory=Theory())
-        assert found.unstable == (sign > 0.0)

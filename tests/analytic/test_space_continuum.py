@@ -14,7 +14,7 @@ from analytic.exact.space.continuum import SpaceContinuum
 from analytic.exact.space.steady import SpaceBlade
 from analytic.exact.space.unit import SpaceUnit
 from analytic.exact.space.vectors import Frames
-from analytic.line import Line
+from analytic.parts import Line
 from analytic.theory import Theory
 
 ALL = SpaceUnit(
@@ -175,18 +175,6 @@ def test_the_gauge_is_how_far_the_tip_has_moved_along_its_direction():
     rate = (steady.gauge(q + h * q_dot) - steady.gauge(q - h * q_dot)) / (2.0 * h)
     assert steady.gauge_rate(q, q_dot) == pytest.approx(rate, abs=1e-8)
     assert np.sum(steady.gauge_gradient(q) * q_dot, axis=1) == pytest.approx(rate, abs=1e-8)
-
-
-@pytest.mark.parametrize("theory", THEORIES)
-def test_forces_are_the_slope_of_the_potential(theory):
-    """V - T0 of any shape, held by a force that the residual of a shape at rest is."""
-    model, rate = space(ALL, theory), 1.7
-    (q,), still = states(model, 0.1, samples=1)[0], np.zeros((1, model.size))
-    h, found = 1e-6, np.empty(model.size)
-    for j, step in enumerate(h * np.eye(model.size)):
-        ahead, behind = (model.amended_potential((q + s)[None], rate)[0] for s in (step, -step))
-        found[j] = (ahead - behind) / (2.0 * h)
-    assert model.residual(q[None], still, still, Driven(rate))[0] == pytest.approx(found, abs=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ from scipy import optimize, special
 from scipy.spatial.transform import Rotation
 
 from analytic import (
-    Beam,
     Blade,
     Section,
     Theory,
@@ -20,15 +19,13 @@ from analytic.description import describe, from_description
 from analytic.exact.beam.state import Driven
 from analytic.exact.space.modes import space_modes_on
 from analytic.exact.space.steady import space_continuum
-from tests.beams import finite_elements
+from tests.beams import finite_elements, unit_beam
 
 MU, R, G = 1e-4, 1.0 / 16.0, 0.08
 X = np.linspace(0.0, 1.0, 4)
 STIFFNESS = np.tile([1.0 / MU, 0.3 / MU, 0.3 / MU, G, R, 1.0], (4, 1))
 MASS = np.tile([1.0, MU * (1.0 + R), MU * R, MU], (4, 1))
-BEAM = Beam.from_stiffness(
-    length=1.0, axial_stiffness=1.0 / MU, bending_stiffness=1.0, mass_per_length=1.0
-)
+BEAM = unit_beam(MU)
 CENTERS = {"center": (0.05, 0.02), "tension": (0.03, -0.01)}
 SHEARED = Theory(shear=True, trapeze=False)
 
@@ -241,24 +238,6 @@ def test_the_swept_tip_of_epps_and_chandra():
         assert np.all(found < np.array(known) + 6e-6)
         moved = (steady_state(blade, w, theory=SHEARED).tip[:2] for w in (omega, 0.0))
         assert np.subtract(*moved) == pytest.approx(tip, abs=6e-8)
-
-
-@pytest.mark.parametrize("about", [1, 2])
-def test_arcs_on_both_sides_of_a_kink(about):
-    """A moment bends both parts to circles of one curvature, the second turned by the kink."""
-    bent, kink, at = 1.3, 0.7, 0.4
-    angles = {"prebend" if about == 1 else "sweep": kink}
-    blade = BEAM.with_section_out_of_plane(1.0, 1.0).with_kink(at, **angles)
-    moment = bent * np.eye(3)[about]
-    state = steady_state(blade, 0.0, moment=moment, theory=Theory(extension=False, trapeze=False))
-
-    def arc(start, length):
-        there = start + bent * length
-        return np.array([math.sin(there) - math.sin(start), math.cos(start) - math.cos(there)])
-
-    along, across = (arc(0.0, at) + arc(bent * at + kink, 1.0 - at)) / bent
-    known = [along, across, 0.0] if about == 2 else [along, 0.0, -across]
-    assert state.tip == pytest.approx(known, abs=1e-12)
 
 
 def test_kinks_turn_what_lies_beyond_them_about_axes_of_their_own_section():

@@ -22,13 +22,13 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.space import Space, with_points_for
-from analytic.exact.beam.steady import steady_rotation
+from analytic.exact.beam.steady import blade_continuum, steady_rotation
 from analytic.exact.plane.growth import _steady_modes, planar_note, planar_orbits
 from analytic.exact.plane.planarity import PlanarStability, growth_rates
 from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER
+from tests.beams import UNIT
 
 ROOT = Path(__file__).parents[2]
 STEPS = (0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6)
@@ -51,24 +51,18 @@ LIMITS = {
 }  # fmt: skip
 
 
-def first_unstable(beam, omega, ratio, amplitudes):
-    blade = beam.blade.with_shape(Rectangle(ratio=ratio))
-    found = planar_stability(blade, omega, amplitudes)
-    unstable = found.amplitude[~found.stable]
-    return unstable.min() if unstable.size else None
-
-
-@pytest.mark.parametrize(("omega", "ratio", "first"), [TABLE[0], TABLE[2], TABLE[9]])
-def test_where_rectangles_leave_the_plane(beam, omega, ratio, first):
-    before = STEPS[STEPS.index(first) - 1]
-    assert first_unstable(beam, omega, ratio, [before, first]) == first
-
-
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:internal resonance")
-@pytest.mark.parametrize(("omega", "ratio", "first"), TABLE)
-def test_the_whole_table(beam, omega, ratio, first):
-    assert first_unstable(beam, omega, ratio, STEPS) == first
+@pytest.mark.parametrize(
+    ("omega", "ratio", "first", "steps"),
+    [
+        *((*TABLE[k], STEPS[STEPS.index(TABLE[k][2]) - 1 :][:2]) for k in (0, 2, 9)),
+        *(pytest.param(*row, STEPS, marks=pytest.mark.slow) for row in TABLE),
+    ],
+)
+def test_where_rectangles_leave_the_plane(beam, omega, ratio, first, steps):
+    found = planar_stability(beam.blade.with_shape(Rectangle(ratio=ratio)), omega, steps)
+    unstable = found.amplitude[~found.stable]
+    assert (unstable.min() if unstable.size else None) == first
 
 
 def test_the_pages_state_these_limits():
@@ -138,14 +132,6 @@ def test_above_the_limit_all_orbits_grow_and_below_it_only_tongues_do(beam, stri
     assert f"{count} tongues below from a = {limit.tongues[0].low:.4g} on" in str(limit)
 
 
-@pytest.mark.slow
-def test_the_limit_rises_with_the_growth_that_counts(beam, strip_at_6):
-    most = stability_limit(beam.with_shape(Rectangle()), 6.0, growth=3.0, largest=0.1).amplitude
-    assert 1.1 * strip_at_6.amplitude < most < 0.1
-    grows = planar_stability(beam.with_shape(Rectangle()), 6.0, [0.99 * most, 1.01 * most])
-    assert np.sign(grows.growth_rate / grows.frequency - 3.0).tolist() == [-1.0, 1.0]
-
-
 @pytest.mark.slow  # test_limit_search has tongues on growths that are known
 @pytest.mark.filterwarnings("ignore:internal resonance")
 def test_a_tongue_in_the_range_is_no_limit(beam):
@@ -178,17 +164,6 @@ def test_all_spin_ups_of_the_paper_leave_the_plane_as_a_rectangle_and_not_as_a_t
 
 LIMIT_OF_SOFT_FLAP = 0.39117
 """By another code, where it grows at all: as the root of the distance from there."""
-
-
-@pytest.mark.slow  # amplitudes that tell are below, and test_limit_search has known growths
-def test_the_limit_is_found_between_the_amplitudes_that_tell(beam):
-    blade = beam.with_section_out_of_plane(0.01, math.inf)
-    limit = stability_limit(blade, 2.0, growth=1e-3, largest=0.45)
-    assert limit.amplitude == pytest.approx(LIMIT_OF_SOFT_FLAP, abs=1.5e-4)
-    assert limit.converged
-    assert limit.kind == "period doubling"
-    assert "leave their plane from a = 0.391" in str(limit)
-    assert "up to the 0.45 looked at, by 0.001 per radian and more" in str(limit)
 
 
 @pytest.mark.slow
@@ -266,9 +241,6 @@ def test_a_stability_of_growth_that_overflows_is_finite(beam):
 
 
 ROUND = Tube()
-UNIT = Blade(
-    length=1.0, section=Section(axial_stiffness=1e6, bending_stiffness=1.0, mass_per_length=1.0)
-)
 
 
 @pytest.mark.filterwarnings("ignore:omega = 100 rad/s is 28 times")
@@ -336,16 +308,6 @@ def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
     with pytest.raises(AmplitudeNotReachedError, match="no orbit of mode 3"):
         planar_stability(beam.with_shape(Rectangle()), 4.0, 0.2, mode=3)
-
-
-@pytest.mark.slow
-def test_a_strip_at_rest_has_a_limit_and_a_square_none(beam):
-    square, strip = (
-        stability_limit(beam.blade.with_shape(Rectangle(ratio=ratio)), 0.0, largest=0.012)
-        for ratio in (1.0, 18.5)
-    )
-    assert math.isinf(square.amplitude)
-    assert strip.amplitude == pytest.approx(0.00782, rel=1e-3)
 
 
 TAPERED = Blade(

@@ -1,12 +1,9 @@
 """Blades given by stations: no answer depends on where a section is cut, and real ones are met."""
 
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from analytic import (
     Blade,
@@ -24,9 +21,7 @@ from analytic import (
     residual_amplitude,
     spin_up_response,
 )
-from analytic.exact.beam.discretization import resolved_model
-from analytic.exact.beam.steady import solve_modes, steady_rotation
-from analytic.exact.linear.unstretched import unstretched_frequencies
+from analytic.exact.beam.steady import resolved_model, solve_modes, steady_rotation
 from analytic.shape_functions import shape_functions
 from rotbeam_exu.files.beam_file import load_beam
 
@@ -53,7 +48,6 @@ def answers(blade):
     yield "mass", blade.mass
     yield "modes", linear_modes(blade, w).frequencies
     yield "inextensible modes", linear_modes(blade, w, theory=Theory(extension=False)).frequencies
-    yield "unstretched", unstretched_frequencies(blade, w)
     yield "ratio", Damping.from_ratio(blade, 3, 0.01).bending
     yield "ratios", damping_ratios(damped, w, 2)
     for name in ("FrM", "FrC"):
@@ -103,56 +97,6 @@ def test_a_straight_taper_at_stations_is_the_polynomial(stations):
         )
         assert other == pytest.approx(one, rel=1e-9)
     assert cut.omega_0 == pytest.approx(straight.omega_0, rel=1e-12)
-
-
-def shot(blade, omega, guess):
-    """A frequency without extension by shooting: state v, v', M and V, stretch by stretch.
-
-    (EI v'')'' - (N v')' = m (Ω² + ω²) v, with the section's straight lines and N in closed form.
-    """
-    section, hub = blade.section, blade.hub_radius
-    stations, m = np.array(section.mass_per_length).T
-    EI = np.array(section.bending_stiffness)[:, 1]
-    lines = [(a, b, EI[i : i + 2], m[i : i + 2]) for i, (a, b) in enumerate(pairwise(stations))]
-    pulls = [  # from the tip inwards: ∫ (R + x) m dx of each stretch, by Simpson's exact rule
-        (b - a)
-        / 6.0
-        * ((hub + a) * mm[0] + 4 * (hub + (a + b) / 2) * mm.mean() + (hub + b) * mm[1])
-        for a, b, _, mm in lines
-    ]
-    beyond = np.concatenate((np.cumsum(pulls[::-1])[::-1], [0.0]))
-
-    def determinant(frequency):
-        state = np.eye(4)[:, 2:].ravel()
-        for (a, b, stiff, mass), start in zip(lines, beyond[:-1], strict=True):
-            slope = (mass[1] - mass[0]) / (b - a)
-
-            def change(x, y, a=a, b=b, stiff=stiff, mass=mass, start=start, slope=slope):
-                s = x - a
-                here = mass[0] + slope * s
-                moved = s * (
-                    (hub + a) * mass[0] + s * ((mass[0] + (hub + a) * slope) / 2 + s * slope / 3)
-                )
-                N = omega**2 * (start - moved)
-                v, turn, M, V = y.reshape(4, 2)
-                bent = M / (stiff[0] + (stiff[1] - stiff[0]) * s / (b - a))
-                return np.concatenate(
-                    (turn, bent, V + N * turn, here * (frequency**2 + omega**2) * v)
-                )
-
-            state = solve_ivp(change, (a, b), state, method="DOP853", rtol=1e-11, atol=1e-14).y[
-                :, -1
-            ]
-        return np.linalg.det(state.reshape(4, 2)[2:] / np.abs(state).max())
-
-    return brentq(determinant, guess * (1 - 1e-7), guess * (1 + 1e-7), xtol=1e-11 * guess)
-
-
-def test_a_real_blade_has_the_frequencies_that_shooting_finds(nrel):
-    found = linear_modes(nrel, 1.267, 2, theory=Theory(extension=False)).frequencies
-    for frequency in found.tolist():
-        # The bracket is 1e-7 wide, shooting integrates to 1e-11.
-        assert shot(nrel, 1.267, frequency) == pytest.approx(frequency, rel=2e-10)
 
 
 def test_a_real_blade_needs_no_more_functions_than_a_uniform_one(nrel):

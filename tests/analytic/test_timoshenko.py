@@ -9,8 +9,8 @@ from scipy.linalg import block_diag, expm
 from scipy.optimize import brentq
 
 from analytic import Beam, Theory, linear_modes
-from analytic.exact.beam.discretization import blade_continuum
 from analytic.exact.beam.state import Driven
+from analytic.exact.beam.steady import blade_continuum
 from tests.beams import SHARE, unit_beam
 
 STUBBY = unit_beam(1e-3)
@@ -143,9 +143,7 @@ def test_engessers_law_has_another_limit(ratio, higher):
     """By Reissner's law the same code is `linear_modes`, so the law is what differs."""
     page = Path(__file__).parents[2] / "docs" / "theory" / "continuum.md"
     assert "1.7e-3 higher, at $L/h=20$ 4.5e-5" in page.read_text(encoding="utf-8")
-    beam = Beam.from_stiffness(
-        length=1.0, axial_stiffness=12.0 * ratio**2, bending_stiffness=1.0, mass_per_length=1.0
-    )
+    beam = unit_beam(1.0 / (12.0 * ratio**2))
     ours = sheared(beam, 6.0, 1)[0]
     assert by_powers(beam, 6.0)[0] == pytest.approx(ours, rel=1e-10)
     # The digits that are printed.

@@ -1,4 +1,4 @@
-"""Cost of a Blade that is the paper's beam, of a real one, and of threads."""
+"""Cost of a real blade, and of threads."""
 
 import os
 import statistics
@@ -24,32 +24,15 @@ from analytic import (
     planar_stability,
     spin_up_response,
 )
-from rotbeam_exu import simulate
 from rotbeam_exu.files.beam_file import load_beam
 
 pytestmark = pytest.mark.benchmarks
-
-WORK = {
-    "modes": lambda beam: linear_modes(beam, 6.0),
-    "orbits": lambda beam: periodic_orbits(beam, 6.0, [0.1, 0.3]),
-    "simulation": lambda beam: simulate(
-        beam, SpinUp(omega=6.0, ramp_time=3.0), duration=4.0, step=2e-3
-    ),
-}
 
 
 def seconds(work, beam):
     started = time.perf_counter()
     work(beam)
     return time.perf_counter() - started
-
-
-@pytest.mark.parametrize("name", WORK)
-def test_a_blade_that_is_the_beam_costs_what_the_beam_does(beam, name):
-    work, blade = WORK[name], beam.blade
-    seconds(work, beam), seconds(work, blade)  # the first times are no measure
-    pairs = [seconds(work, blade) / seconds(work, beam) for _ in range(9)]
-    assert statistics.median(pairs) < 1.1
 
 
 def test_an_amplitude_out_of_the_plane_costs_a_fraction_of_a_second(beam):

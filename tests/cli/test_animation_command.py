@@ -72,7 +72,7 @@ def test_the_linear_model_is_shown_beside_it_when_asked(call, monkeypatch, tmp_p
 
 
 def test_a_run_with_stations_is_shown_and_written_for_paraview(call, tmp_path):
-    run = ("run", "--omega", "1", "--ramp-time", "1", "--duration", "14", "--step", "0.005")
+    run = ("run", "--omega", "1", "--ramp-time", "1", "--duration", "14", "--step", "0.01")
     mesh = ("--elements", "2", "--stations", "5", "--no-figure", "--no-exact")
     code, out, error = call(*run, *mesh, "--out", tmp_path)
     assert (code, error) == (0, "")
@@ -101,3 +101,6 @@ def test_a_body_for_paraview_has_the_height_and_width_given(call, tmp_path):
     text = (tmp_path / "film" / "film-0002.vtu").read_text()
     assert f'NumberOfPoints="{4 * 41}" NumberOfCells="40"' in text
     assert 'Name="stress"' in text
+    code, _, error = call("animate", *motion, "--height", "0.04", "-o", tmp_path / "other.pvd")
+    assert (code, "give width too, or leave both out" in error) == (2, True)
+    assert not (tmp_path / "other.pvd").exists()

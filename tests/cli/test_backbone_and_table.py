@@ -7,7 +7,7 @@ import pytest
 
 from analytic import VARIANTS, Beam, paper_table, periodic_orbits, reduced_model
 from analytic.methods.continuation import Care
-from analytic.reduced.model import model_at
+from analytic.reduced.model_range import model_at
 
 BLADE = """
 [blade]

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import analytic
 from analytic import Beam
@@ -86,20 +85,6 @@ def test_figures_are_of_the_paper_and_say_so(call, reed):
     assert code == 2
     assert "Unknown option: --config" in error
     assert "Figures show the paper's beam" in " ".join(call("figure", "--help")[1].split())
-
-
-def test_the_budget_says_what_a_dash_is(capsys):
-    error = xr.DataArray(
-        [[[1e-4, np.nan]]],
-        dims=("source", "omega", "ramp_time"),
-        coords={"source": ["step"], "omega": [6.0], "ramp_time": [3.0, 2.0]},
-        name="error",
-    )
-    compare_job._print_elements(error.to_dataset(), 1e-3)
-    out = capsys.readouterr().out
-    assert "nan" not in out
-    assert "+1.0e-04" in out
-    assert "-: the amplitude is above 0.6" in out
 
 
 def test_ctrl_c_says_what_is_kept_or_that_nothing_is(call, tmp_path, monkeypatch):

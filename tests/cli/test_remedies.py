@@ -24,21 +24,6 @@ def test_a_speed_in_another_unit_is_given_in_radians(call, tmp_path):
     assert "1 hz is 6.28319 rad/s" in call("sweep", "--hz=1.5")[2]
 
 
-@pytest.mark.parametrize(
-    ("command", "wrong", "meant"),
-    [
-        ("run", "--elemnts", "--elements"),
-        ("sweep", "--elemens", "--elements"),
-        ("animate", "--durations", "--duration"),
-    ],
-)
-def test_an_option_is_suggested_only_if_it_is_alike(call, command, wrong, meant):
-    code, _, error = call(command, wrong, "3")
-    assert code == 2
-    assert f"Did you mean {meant}?" in error
-    assert "Did you mean" not in call(command, "--zzz", "3")[2]
-
-
 def test_at_rest_nothing_oscillates_and_a_speed_helps(call, tmp_path, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))

@@ -3,6 +3,7 @@
 The grid in full is slow; by default its first speeds and ramp times stand for it.
 """
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -25,8 +26,7 @@ def lines(beam):
 @pytest.fixture(scope="session")
 def grid(tmp_path_factory):
     """The 24 cases on all meshes; minutes."""
-    cache = tmp_path_factory.mktemp("cache")
-    return comparison.figure_14(cache=cache), comparison.finite_element_budget(cache=cache)
+    return comparison.figure_14(cache=tmp_path_factory.mktemp("cache"))
 
 
 def golden(name):
@@ -131,11 +131,15 @@ def test_figure_5_is_fitted_where_its_curve_holds(monkeypatch):
         .to_xarray()
     )
     monkeypatch.setattr(comparison.backbones, "finite_element_points", lambda *_, **__: points)
+    # Of as many functions as it takes these frequencies differ by less than 1e-9.
+    few = partial(periodic_orbits, functions=10)
+    monkeypatch.setattr(comparison.backbones, "periodic_orbits", few)
     data = comparison.figure_5()
     exact = np.array([-0.00897, 0.00874, 0.01967, 0.02383])
     assert np.allclose(data["lambda_omega"], exact, rtol=0.015)
     # The parabola through all points, as the paper has it: 32 and 45 % off at 6 and 8 rad/s.
-    parabola = comparison.fitted_softening(points, below=1.0, quartic=False)["lambda_omega"]
+    square = points["amplitude"] ** 2
+    parabola = (square * (1.0 - points["ratio"])).sum("ramp_time") / (square**2).sum("ramp_time")
     assert (np.abs(parabola / exact - 1.0)[2:] > 0.3).all()
     assert (abs(data["lambda_omega"] - exact) < data["lambda_omega_error"]).all()
     # The points lie on the exact backbone, up to the mesh's error, and it ends at the last.
@@ -213,22 +217,12 @@ def test_model_budget_adds_up_and_blames_the_truncation(beam):
 
 
 @pytest.mark.slow
-def test_every_small_point_lies_on_the_exact_backbone(beam, grid):
-    data, budget = grid
-    for (omega, a, ratio), bar in zip(
-        _points(data, "converged"), data["ratio_error"].sel(mesh="converged").to_numpy().ravel(),
-        strict=True,
-    ):  # fmt: skip
-        if a < 0.25:
+def test_every_point_lies_on_the_exact_backbone(beam, grid):
+    for omega, a, ratio in _points(grid, "converged"):
+        if a <= 0.6:
             exact = periodic_orbits(beam, omega, [a])
-            assert abs(ratio - exact.frequency[0] / exact.omega_n) < 1e-5 + bar
-    rest = budget["error"].sel(source="rest")
-    # 7e-8 with tones fitted to the other modes.
-    assert np.nanmax(np.abs(rest)) < 2e-7
-    step, mesh = (budget["error"].sel(source=s, omega=6.0) for s in ("step", "mesh"))
-    # A step lowers the frequency, a mesh raises it: their sum is no measure of either.
-    assert (step.isel(ramp_time=slice(0, 3)) < 0.0).all()
-    assert (mesh.isel(ramp_time=slice(0, 3)) > 0.0).all()
+            # 7e-8 with tones fitted to the other modes.
+            assert abs(ratio - exact.frequency[0] / exact.omega_n) < 2e-7
 
 
 def _points(data, mesh):
@@ -251,7 +245,7 @@ def _points(data, mesh):
     ],
 )
 def test_converged_points_of_the_grid(grid, omega, ramp_time, amplitude, ratio):
-    here = grid[0].sel(mesh="converged", omega=omega, ramp_time=ramp_time)
+    here = grid.sel(mesh="converged", omega=omega, ramp_time=ramp_time)
     # The values were read off with another step and peak finder: 2e-5 of the amplitude.
     assert here["amplitude"].item() == pytest.approx(amplitude, abs=2e-5)
     assert here["ratio"].item() == pytest.approx(ratio, abs=4e-6)
@@ -259,7 +253,7 @@ def test_converged_points_of_the_grid(grid, omega, ramp_time, amplitude, ratio):
 
 @pytest.mark.slow
 def test_fitted_coefficient_is_the_exact_lambda(grid):
-    fit = comparison.fitted_softening(grid[0].sel(mesh="converged"), below=0.4)
+    fit = comparison.fitted_softening(grid.sel(mesh="converged"), below=0.4)
     # Asked to the fourth digit; the fit's a⁶ remainder is of that size at 6 rad/s.
     assert np.allclose(fit["lambda_omega"], [-0.0089, 0.0088, 0.0197, 0.0238], atol=1.1e-4)
 
@@ -267,6 +261,6 @@ def test_fitted_coefficient_is_the_exact_lambda(grid):
 @pytest.mark.slow
 def test_the_grid_agrees_with_the_golden_data(grid):
     kept = golden("figure_14-amplitude")
-    found = grid[0][["amplitude", "ratio"]].to_dataframe().reset_index()
+    found = grid[["amplitude", "ratio"]].to_dataframe().reset_index()
     assert np.allclose(kept["ratio"], found["ratio"], atol=1e-6)
     assert np.allclose(kept["amplitude"], found["amplitude"], atol=1e-5)

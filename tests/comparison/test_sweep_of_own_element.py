@@ -12,7 +12,7 @@ from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import load, sweep
 from rotbeam_exu.fem.elements import FORMULATIONS, Cable
 from rotbeam_exu.runs.oscillation import steady_oscillation
-from rotbeam_exu.sweeps.cache import maker
+from rotbeam_exu.sweeps.cases import maker
 
 COARSE = {
     "omegas": [6.0], "ramp_times": [3.0], "elements": 2, "step": 1e-2, "duration": 8.0, "jobs": 1,

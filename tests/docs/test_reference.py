@@ -18,7 +18,12 @@ PLAIN = {
         "analytic.exact.linear.tracking.Crossing analytic.reduced.linear_frame.LinearResponse "
         "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
         "analytic.exact.plane.stability_limit.StabilityLimit "
-        "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam"
+        "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam "
+        "analytic.reduced.model.ReducedModel rotbeam_exu.runs.oscillation.SteadyOscillation"
+    ),
+    "loads and shapes that are used as TipForce and Rectangle are": (
+        "analytic.Circle analytic.DistributedForce analytic.Ellipse analytic.SpeedRipple "
+        "analytic.Tube"
     ),
     "errors, which their message explains": (
         "analytic.AmplitudeNotReachedError analytic.ResponseNotReachedError "
@@ -31,7 +36,6 @@ PLAIN = {
 """Names without an example, by the reason."""
 PLAIN_NAMES = set(" ".join(PLAIN.values()).split())
 BEYOND = {
-    "analytic.exact.beam.section_loads",
     "analytic.exact.beam.state", "analytic.exact.driven.forced_orbits",
     "analytic.exact.driven.response", "analytic.exact.free.backbone",
     "analytic.exact.free.branch", "analytic.exact.free.branches", "analytic.exact.free.curve",
@@ -39,9 +43,9 @@ BEYOND = {
     "analytic.exact.free.orbits",
     "analytic.exact.linear.campbell",
     "analytic.exact.linear.modes", "analytic.exact.linear.tracking",
-    "analytic.exact.linear.unstretched", "analytic.exact.plane.planarity",
+    "analytic.exact.plane.planarity",
     "analytic.exact.plane.stability_limit", "analytic.exact.space.modes",
-    "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.speeds",
+    "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.model_range",
     "analytic.section", "analytic.spin_up.quiet",
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",
     "rotbeam_exu.files.beam_file", "rotbeam_exu.files.vtk", "rotbeam_exu.runs.shape",

@@ -7,7 +7,7 @@ from exudyn.itemInterface import NodePoint2DSlope1, ObjectGenericODE2
 from analytic import SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate
 from rotbeam_exu.fem.elements import Ancf3, Chain, Exact
-from rotbeam_exu.fem.elements.point_masses import add_point_inertias, spins
+from rotbeam_exu.fem.elements.energy_body import add_point_inertias, spins
 from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.fem.solver import Sensors, exudyn_system, solve, solver_settings
 

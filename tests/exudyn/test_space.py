@@ -6,7 +6,6 @@ import xarray as xr
 
 from analytic import (
     Beam,
-    Damping,
     Rectangle,
     SpinUp,
     SteadyRotation,
@@ -160,7 +159,6 @@ def test_rate_of_a_known_growth(rate):
         ({"frame": "rotating"}, "frame='inertial'"),
         ({"beam": Beam.reference()}, r"with_section_out_of_plane\(bending_ratio"),
         ({"beam": RECTANGLE.with_section_out_of_plane(1.0, np.inf)}, "element='space_cable'"),
-        ({"beam": RECTANGLE.with_damping(Damping(external=0.1))}, r"with_damping\(Damping\(\)\)"),
         ({"beam": RECTANGLE.with_tip_mass(0.5)}, "point masses"),
         ({"beam": RECTANGLE.with_offsets(mass=(0.01, 0.0))}, r"blade.with_offsets\(\)"),
         ({"beam": RECTANGLE.with_twist(0.1), "initial_state": kicked(RECTANGLE)}, "in its plane"),
@@ -220,7 +218,7 @@ def test_an_unstable_rectangle_grows_as_theory_says():
         rates.append(rate)
     assert rates == pytest.approx([stability.growth_rate[0]] * 2, rel=0.1)
     # Linear elements: of second order, so that both meshes together tell the limit.
-    assert (4.0 * rates[1] - rates[0]) / 3.0 == pytest.approx(stability.growth_rate[0], rel=0.03)
+    assert (4.0 * rates[1] - rates[0]) / 3.0 == pytest.approx(stability.growth_rate[0], rel=0.01)
 
 
 @pytest.mark.slow

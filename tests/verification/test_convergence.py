@@ -124,15 +124,6 @@ def test_the_bar_holds_where_the_first_mesh_is_too_coarse(higher, declared):
     assert np.all(np.diff(bars[1:]) < 0.0)
 
 
-def test_two_meshes_do_not_lean_on_the_declared_order():
-    """The bar has room for the second order where the fourth was declared, and for the first."""
-    elements = (16, 32)
-    for true in (1.0, 2.0, 4.0):
-        found = converged(elements, None, series(elements, order=true), declared=(4.0, None))
-        assert abs(found.limit - LIMIT) <= found.bar
-    assert found.orders["mesh"].why == "2 meshes, three are needed"
-
-
 def test_one_mesh_has_no_limit():
     found = converged([8, 8], [1.0, 2.0], [1.0, 2.0])
     assert math.isnan(found.limit)

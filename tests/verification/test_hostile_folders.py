@@ -11,8 +11,7 @@ from rotbeam_exu.verification.submission_files import (
     read_submission,
     write_submission,
 )
-from rotbeam_exu.verification.submission_files.content import LARGEST
-from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
+from rotbeam_exu.verification.submission_files.faults import LARGEST, MalformedSubmissionError
 from rotbeam_exu.verification.submission_files.tables import number
 
 SECRET = "example.org,password,hunter2\n"

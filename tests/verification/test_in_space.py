@@ -195,28 +195,6 @@ def test_a_code_without_gravity_or_kick_differs():
         assert found.outcome_of(name) is Outcome.DIFFERS
 
 
-@pytest.mark.parametrize(
-    ("file", "text", "said"),
-    [
-        ("P.csv", "elements,speed,lag,flap\n8,1,0.018345,-0.20239", "there is no column twist"),
-        ("P.csv", "elements,speed,lag,flap,twist\n8,5,0.1,0.1,0.1", "speed 5 is not asked for"),
-        ("F.csv", "elements,speed,number,frequency\n8,1,9,3.123456", "number 9 is not asked for"),
-        ("F.csv", "elements,speed,number,frequency\n8,1,2,3.1", "frequencies are written to 2"),
-        ("W/m008_h1e-3.csv", "time,q\n0.0,0.0", "unknown column 'q'"),
-    ],
-)
-def test_faults_in_space_are_told(file, text, said, tmp_path):
-    (tmp_path / "entry.toml").write_text('benchmark = "1.0"\ncode = "mine"\n')
-    (tmp_path / file).parent.mkdir(exist_ok=True)
-    (tmp_path / file).write_text(text + "\n")
-    (tmp_path / "runs.csv").write_text("file,elements,step\nW/m008_h1e-3.csv,8,1e-3\n")
-    if not file.startswith("W"):
-        (tmp_path / "runs.csv").unlink()
-    with pytest.raises(MalformedSubmissionError) as caught:
-        read_submission(tmp_path)
-    assert said in str(caught.value)
-
-
 def test_engessers_law_is_declared(tmp_path):
     theory = Theory(shear=SHEAR, engesser=True)
     folder = write_submission(submitted(["TL"], theory), tmp_path / "mine")

@@ -41,6 +41,10 @@ def test_a_right_code_converges_to_the_reference(judged_right):
     assert of["history"].runs.errors[-1] == pytest.approx(put_in, rel=1e-2)
     for quantity in ("amplitude", "history"):
         assert abs(of[quantity].model_difference) < 1e-6
+    # The reference's own amplitude is measured, too: its error counts over itself.
+    true = found.histories["S"].true_oscillation
+    own = of["amplitude"].bound - found.histories["S"].reference.bound
+    assert own * true.amplitude == pytest.approx(true.amplitude_error, rel=1e-6)
     # All runs are compared as far as the shortest goes, its last sample included.
     seen = found.histories["S"]
     compared = seen.finest.time <= min(run.time[-1] for run in seen.runs)
@@ -155,20 +159,6 @@ def history_of(submission):
     return judged(submission, cases={"S1": replace(CASES["S1"], oscillates=False)})
 
 
-def test_meshes_and_steps_may_be_refined_together(made_of_the_exact_answer):
-    entry = made_of_the_exact_answer()
-    runs = [
-        replace(run, elements=n, step=16e-3 / n)
-        for n in (8, 16, 32)
-        for run in handed_in(replace(entry, elements=n), [CASES["S1"]]).runs
-        if run.elements == n
-    ][::3]
-    found = history_of(Submission(declaration=Declaration(code="mine"), runs=tuple(runs)))
-    assert found.findings["S1"]["history"].outcome is Outcome.REFERENCE
-    assert found.orders["S1"]["mesh"].value == pytest.approx(2.0, abs=0.1)
-    assert "step" not in found.orders["S1"]
-
-
 def test_an_order_below_the_declared_one_is_told_and_decides_nothing(made_of_the_exact_answer):
     found = judge(made_of_the_exact_answer(order=4.0))
     assert found.orders["S"]["mesh"].low
@@ -191,10 +181,13 @@ def test_points_of_a_backbone_are_judged_by_their_shift():
                 )
                 for n in (8, 16, 32)
             ]  # fmt: skip
-        submission = Submission(declaration=Declaration(code="mine"), rows=tuple(points))
+        failed = Row(case="B", elements=64, speed=2.0, amplitude=0.3, failure="buckles")
+        submission = Submission(declaration=Declaration(code="mine"), rows=(*points, failed))
         found = judged(submission).findings["B"]["backbone"]
         assert found.outcome is outcome
         assert found.model_difference == pytest.approx(off, abs=2e-3)
+    alone = judged(replace(submission, rows=(failed,))).findings["B"]["backbone"]
+    assert alone.note == "no mesh: buckles"
 
 
 def test_nonlinear_frequencies_are_over_the_linear_one_of_the_same_code():

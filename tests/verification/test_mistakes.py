@@ -8,8 +8,8 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
-from analytic.exact.beam.discretization import continuum
 from analytic.exact.beam.state import Driven
+from analytic.exact.beam.steady import continuum
 from analytic.theory import BERNOULLI_EULER, Theory
 from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.convergence import converged

@@ -55,6 +55,33 @@ def good(tmp_path):
     return write_submission(whole(), tmp_path / "good")
 
 
+FILES = ["entry.toml", "L.csv", "B.csv", "runs.csv", "S1/m008_h1e-3.csv", "S2/m016_h2e-3.csv",
+         "F.csv", "P.csv", "W/m016_h1e-3.csv", "L/m016_w6.csv"]  # fmt: skip
+
+
+@pytest.fixture
+def of_every_kind(tmp_path):
+    """A folder with all kinds of files: tables and a history in space, a free vibration."""
+    plane, time = whole(), np.arange(0.0, 20.01, 0.02)
+    tip = np.outer(np.sin(3.1 * time[:751]), (0.1, 0.02, 0.3))
+    turning = Row(case="F", elements=8, speed=1.0, number=7, values=(61.803398875,))
+    mine = replace(
+        plane,
+        rows=(
+            *plane.rows,
+            turning,
+            Row(case="P", elements=8, speed=1.0, values=(1e-3 / 3, 0.1 / 3, 0.7 / 3)),
+        ),
+        runs=(*plane.runs, Run(case="W", elements=16, step=1e-3, time=time[:751], q=tip)),
+    )
+    folder = write_submission(mine, tmp_path / "every")
+    (folder / "L").mkdir()
+    free = np.column_stack([time, 0.01 * np.cos(3.73 * time)])
+    np.savetxt(folder / "L/m016_w6.csv", free, "%.12g", ",", header="time,q", comments="")
+    assert set(FILES) <= set(digests(folder, read_submission(folder)))
+    return folder
+
+
 def faults_of(folder):
     with pytest.raises(MalformedSubmissionError) as caught:
         read_submission(folder)
@@ -210,6 +237,11 @@ FAULTS = [
     ("L.csv", lambda text: text.replace("2.9", "-2.9"), ":2: frequency must be positive"),
     ("L.csv", lambda text: text + text.split("\n")[1], ":4: the same row stands above"),
     ("B.csv", lambda text: text.replace("0.1,", "0.17,"), "amplitude 0.17 is not asked for"),
+    ("P.csv", lambda text: text.replace(",twist", ",turn"), "there is no column twist"),
+    ("P.csv", lambda text: text.replace("8,1.0", "8,5"), "speed 5 is not asked for"),
+    ("F.csv", lambda text: text.replace(",7,", ",9,"), "number 9 is not asked for"),
+    ("F.csv", lambda text: text.replace("61.803398875", "61.8"), "are written to 3"),
+    ("W/m016_h1e-3.csv", lambda text: text.replace("lag", "q"), ":1: unknown column 'q'"),
     ("entry.toml", None, "there is no such file"),
     ("entry.toml", lambda text: text + "\norder =", "is not valid TOML"),
     ("entry.toml", lambda text: "kode = 'a'\n" + text, ":1: unknown key 'kode'; did you mean"),
@@ -223,15 +255,15 @@ FAULTS = [
 
 
 @pytest.mark.parametrize(("file", "change", "said"), FAULTS, ids=[said for *_, said in FAULTS])
-def test_faults_have_their_place_and_a_remedy(good, file, change, said):
-    path = good / file
+def test_faults_have_their_place_and_a_remedy(of_every_kind, file, change, said):
+    path = of_every_kind / file
     if change is None:
         path.unlink()
     else:
         text = path.read_text("utf-8")
         assert change(text) != text
         path.write_text(change(text), "utf-8", newline="\n")
-    found = faults_of(good)
+    found = faults_of(of_every_kind)
     assert any(said in fault for fault in found), found
     assert len(found) < 6
 
@@ -302,33 +334,6 @@ def test_nothing_to_judge(tmp_path):
     assert "there is nothing to judge" in faults_of(tmp_path)[0]
     with pytest.raises(FileNotFoundError, match="there is no folder"):
         read_submission(tmp_path / "none")
-
-
-FILES = ["entry.toml", "L.csv", "B.csv", "runs.csv", S1, "S2/m016_h2e-3.csv",
-         "F.csv", "P.csv", "W/m016_h1e-3.csv", "L/m016_w6.csv"]  # fmt: skip
-
-
-@pytest.fixture
-def of_every_kind(tmp_path):
-    """A folder with all kinds of files: tables and a history in space, a free vibration."""
-    plane, time = whole(), np.arange(0.0, 20.01, 0.02)
-    tip = np.outer(np.sin(3.1 * time[:751]), (0.1, 0.02, 0.3))
-    turning = Row(case="F", elements=8, speed=1.0, number=7, values=(61.803398875,))
-    mine = replace(
-        plane,
-        rows=(
-            *plane.rows,
-            turning,
-            Row(case="P", elements=8, speed=1.0, values=(1e-3 / 3, 0.1 / 3, 0.7 / 3)),
-        ),
-        runs=(*plane.runs, Run(case="W", elements=16, step=1e-3, time=time[:751], q=tip)),
-    )
-    folder = write_submission(mine, tmp_path / "every")
-    (folder / "L").mkdir()
-    free = np.column_stack([time, 0.01 * np.cos(3.73 * time)])
-    np.savetxt(folder / "L/m016_w6.csv", free, "%.12g", ",", header="time,q", comments="")
-    assert set(FILES) <= set(digests(folder, read_submission(folder)))
-    return folder
 
 
 CELLS = ["nan", "-inf", "1e999", "1e308", "-1e308", "", "0", "-1", "1,2", '"', '""', "1_0", "1;2",

@@ -1,13 +1,16 @@
-"""The state of the exact beam at material points, to start a code from."""
+"""The exact beam at material points: its state, to start a code from, and the loads in sections."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any, NamedTuple
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ...arrays import FloatArray
+
+if TYPE_CHECKING:
+    from ...beam import AnyBlade
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,20 +62,79 @@ def straight_state(x: FloatArray, **moving: FloatArray) -> BeamState:
     return BeamState(**flat | moving)
 
 
-class Driven(NamedTuple):
-    """Rotation of the clamp and loads, without units, as the equations of motion take them.
+@dataclass(frozen=True, kw_only=True)
+class SectionLoads:
+    """Sections, and force and moment that the outboard part exerts on the inboard part; SI units.
+
+    By d'Alembert's principle: all loads outboard, less mass times acceleration, with the rotation
+    of the clamp, Coriolis forces and rotary inertia. In the section's axes, which turn with it: 1
+    normal to it, 2 in the plane of bending or along the chord, 3 normal to both. At a point mass or
+    a kink a station takes the outboard side, at the tip the inboard one.
 
     Attributes
     ----------
-    rate, rate_dot : float or ndarray (samples,)
-        w and its rate.
-    push : ndarray or None
-        Load beyond each Gauss point, as the discretization's `push` returns it.
+    blade : Beam or Blade
+    stations : ndarray (stations,)
+        From the clamp [m].
+    place : ndarray (samples, stations, 3)
+        Where the sections are [m], from the clamp: along the clamp, in the direction of rotation
+        (lag) and normal to both (flap). The frame turns with the clamp and has its precone.
+    section : ndarray (samples, stations, 3, 3)
+        Axes of the sections, in columns, in the frame of `place`.
+    force : ndarray (samples, stations, 2) or (samples, stations, 3)
+        Tension N and shear force along axis 2, in space along axis 3 as well [N].
+    moment : ndarray (samples, stations) or (samples, stations, 3)
+        Bending moment M about axis 3, EI times the curvature [N m]. In space the torque, and the
+        moments about axes 2 (flap, of a blade set at zero) and 3 (lag). A steady state has no
+        samples.
+
+    Examples
+    --------
+    >>> from analytic import Beam, SpinUp, spin_up_response
+    >>> found = spin_up_response(Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), [1.0, 2.0])
+    >>> print(found.section_loads([0.0, 4.0]).moment.round(2))
+    [[ -69.55  -20.56]
+     [-220.73  -21.15]]
     """
 
-    rate: Any
+    blade: AnyBlade
+    stations: FloatArray
+    place: FloatArray = field(repr=False)
+    section: FloatArray = field(repr=False)
+    force: FloatArray = field(repr=False)
+    moment: FloatArray = field(repr=False)
+
+    @property
+    def tension(self) -> FloatArray:
+        """N [N], (samples, stations)."""
+        return np.asarray(self.force[..., 0])
+
+
+def in_newtons(
+    beam: AnyBlade,
+    x: FloatArray,
+    standing: tuple[FloatArray, FloatArray],
+    loads: tuple[FloatArray, FloatArray],
+) -> SectionLoads:
+    """Return places, sections and loads without dimensions at `x` over L as a value."""
+    unit = beam.bending_stiffness / beam.length
+    (place, section), (force, moment) = standing, loads
+    return SectionLoads(
+        blade=beam,
+        stations=beam.length * x,
+        place=beam.length * place,
+        section=section,
+        force=unit / beam.length * force,
+        moment=unit * moment,
+    )
+
+
+class Driven(NamedTuple):
+    """Rotation of the clamp and loads, without units, as the equations of motion take them."""
+
+    rate: Any  # w, a number or (samples,)
     rate_dot: Any = 0.0
-    push: Any = None
+    push: Any = None  # load beyond each Gauss point, as the discretization's `push` returns it
 
 
 def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:

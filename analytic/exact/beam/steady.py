@@ -1,24 +1,85 @@
-"""The exact beam in steady rotation: the system whose orbits are sought, its modes and states."""
+"""The exact beam in steady rotation: its functions, the system of its orbits, modes, states."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_steady_state
-from ...input_checks import finite_number, points_of_beam
+from ...beam import AnyBlade, require_planar, require_steady_state
+from ...input_checks import points_of_beam, whole_number
 from ...methods.gyroscopic import reciprocal_modes
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
-from ...theory import BERNOULLI_EULER
+from ...profiles import evaluated, in_units
+from ...shape_functions import shape_functions
+from ...theory import BERNOULLI_EULER, Theory, require_theory
+from ...unit_blade import UnitBlade
 from .continuum import Continuum
-from .discretization import blade_continuum, finer_model
 from .state import BeamState, Driven
+
+MOST_FUNCTIONS = 256
+"""For θ; beyond, the eigenproblem takes seconds."""
+
+
+continuum = lru_cache(maxsize=32)(Continuum)
+"""The discretization, built once for each set of arguments."""
+
+
+def blade_continuum(beam: AnyBlade, theory: Theory, bending: int, axial: int) -> Continuum:
+    """Return the discretization by at least so many functions, as many on every panel."""
+    require_planar(beam)
+    unit = _unit(beam, require_theory(theory))
+    slenderness, axial = (beam.slenderness, axial) if theory.extension else (0.0, 1)
+    bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
+    return continuum(slenderness, bending, axial, unit, theory.shear, theory.engesser)
+
+
+def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) -> Continuum:
+    """Return the discretization, refusing a mode that it does not resolve."""
+    functions = whole_number("functions", functions, least=4)
+    if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
+        raise ValueError(
+            f"at most {MOST_FUNCTIONS} functions are taken, which resolve {MOST_FUNCTIONS // 2} "
+            f"modes, got functions={functions} for mode {mode}: ask for less"
+        )
+    if mode > functions // 2:
+        raise ValueError(
+            f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
+            f"ask for functions={2 * mode} or more"
+        )
+    return blade_continuum(beam, theory, functions, max(4, 5 * functions // 8))
+
+
+def require_shear(beam: AnyBlade, theory: Theory) -> None:
+    """Refuse a number for sections that tell their shear stiffness, and True for others."""
+    if theory.shear is not None and (theory.shear is True) != beam.section.at_stations:
+        raise ValueError(
+            f"shear = {theory.shear} does not fit the blade: a blade from stations tells its "
+            "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "
+            "Theory(shear=0.32)"
+        )
+
+
+def _unit(beam: AnyBlade, theory: Theory) -> UnitBlade:
+    """Return the blade without dimensions, with the rotary inertia of its slices."""
+    require_shear(beam, theory)
+    blade = beam.unit
+    told = beam.section.rotary_inertia is not None
+    if told or not theory.rotary_inertia:
+        return blade
+    x = np.linspace(0.0, 1.0, 257)
+    if not np.allclose(evaluated(blade.mass, x), evaluated(blade.axial, x), rtol=1e-9):
+        raise ValueError(
+            "mass and axial stiffness of the blade do not vary alike, so that its sections "
+            "have no one ρ/E to take their rotary inertia from: give "
+            "Section(rotary_inertia=...) in kg m"
+        )
+    return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / beam.slenderness))
 
 
 class Discretized:
@@ -40,6 +101,25 @@ class Discretized:
         """Return the coordinates of the same shape on more functions, along the last axis."""
         return np.asarray(self.model.padded(q, finer.model))
 
+    def by(self, *drive: Any) -> Driven:
+        """Return what drives it, where a drive acts at phases (samples,) and a frequency."""
+        raise NotImplementedError
+
+    def residual(self, *state: Any) -> FloatArray:
+        """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ and their drive."""
+        return np.asarray(self.model.residual(*state[:3], self.by(*state[3:])))
+
+    def tangent(self, *state: Any) -> Tangent:
+        """Return the residual of the same states and its derivatives to q, q̇ and q̈."""
+        tangent: Tangent = self.model.tangent(*state[:3], self.by(*state[3:]))
+        return tangent
+
+    def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in the same states, as the model has them."""
+        loads: tuple[FloatArray, FloatArray]
+        loads = self.model.section_loads(x, *state[:3], self.by(*state[3:]))
+        return loads
+
 
 class AtConstantRate(Discretized):
     """Equations of a blade in a frame that turns at a constant rate, in the plane or in space."""
@@ -57,23 +137,10 @@ class AtConstantRate(Discretized):
         del frequency
         return self
 
-    def by(self) -> Driven:
+    def by(self, *drive: Any) -> Driven:
         """Return what drives it."""
+        del drive
         return Driven(self.rate, push=self.push)
-
-    def residual(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> FloatArray:
-        """Return the virtual work of all forces, (samples, n)."""
-        return np.asarray(self.model.residual(q, q_dot, q_ddot, self.by()))
-
-    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray) -> Tangent:
-        """Return the residual and its derivatives to q, q̇ and q̈."""
-        tangent: Tangent = self.model.tangent(q, q_dot, q_ddot, self.by())
-        return tangent
-
-    def section_loads(self, x: FloatArray, *state: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return force and moment at `x` in states q, q̇, q̈, as the model has them."""
-        found: tuple[FloatArray, FloatArray] = self.model.section_loads(x, *state, self.by())
-        return found
 
     def potential(self, q: FloatArray) -> FloatArray:
         """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
@@ -90,16 +157,10 @@ class SteadyBeam(AtConstantRate):
 
     The gauge is the tip's deflection over the length. The motion (θ, e, γ)(t) → (-θ, e, -γ)(-t)
     maps orbits onto orbits: θ and γ are odd. The invariant is the Jacobi integral.
-
-    Attributes
-    ----------
-    model : Continuum
-    rate : float
-        w̄ = ω/√(EI/mL³).
     """
 
     model: Continuum
-    rate: float
+    rate: float  # w̄ = ω/√(EI/mL³)
 
     @cached_property
     def odd(self) -> NDArray[np.bool_]:
@@ -125,7 +186,19 @@ class SteadyBeam(AtConstantRate):
 
     def refined(self) -> Self:
         """Return the beam on half as many functions again."""
-        return replace(self, model=finer_model(self.model))
+        old = self.model
+        panels = old.blade.panel_count
+
+        def more(count: int) -> int:
+            a_panel = count // panels
+            # One more at least, on every panel: the same functions would confirm themselves.
+            return panels * (a_panel + max(a_panel // 2, 1))
+
+        axial = more(old.axial) if old.slenderness > 0.0 else old.axial
+        finer = continuum(
+            old.slenderness, more(old.bending), axial, old.blade, old.shear_ratio, old.engesser
+        )
+        return replace(self, model=finer)
 
 
 BeamOrbit = Orbit[SteadyBeam]
@@ -147,13 +220,12 @@ class Modes(NamedTuple):
     slopes: ComplexArray
 
 
-def solve_modes(steady: SteadyBeam, *, stretched: bool = True) -> Modes:
+def solve_modes(steady: SteadyBeam) -> Modes:
     """Return all modes about the steady state, the slopes scaled to a tip displacement of 1.
 
     With θ and γ in the sine and e in the cosine of Ωτ, K - ΩS - Ω²M is real and symmetric.
     """
-    model, at_rest = steady.model, np.zeros((1, steady.size))
-    at = steady.equilibrium if stretched else at_rest[0]
+    model, at, at_rest = steady.model, steady.equilibrium, np.zeros((1, steady.size))
     tangent = steady.tangent(at[None], at_rest, at_rest)
     gyroscopic = np.where(np.outer(model.odd, ~model.odd), tangent.damping[0], 0.0)
     gyroscopic += gyroscopic.T
@@ -170,24 +242,13 @@ def solve_modes(steady: SteadyBeam, *, stretched: bool = True) -> Modes:
 def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
     """Return the state of the beam that turns at `omega` [rad/s] and does not swing."""
     steady = steady_rotation(beam, omega, blade_continuum(beam, BERNOULLI_EULER, 20, 10))
-    return _state(beam, steady.model, steady.equilibrium, np.zeros(steady.size), x)
+    return state_of(beam, steady.model, steady.equilibrium, np.zeros(steady.size), x)
 
 
-def orbit_state(
-    beam: AnyBlade,
-    orbit: Orbit[Any],
-    x: ArrayLike,
-    phase: float,
-) -> BeamState:
-    """Return the state of an orbit of `beam` at the points `x` [m] and the `phase` [rad]."""
-    phases = np.array([finite_number("phase", phase, "rad")])
-    (q,), (q_dot,), _ = orbit.coordinates(phases)
-    return _state(beam, orbit.system.model, q, q_dot, x)
-
-
-def _state(
+def state_of(
     beam: AnyBlade, model: Continuum, q: FloatArray, q_dot: FloatArray, x: ArrayLike
 ) -> BeamState:
+    """Return the state of coordinates and their rates (n,) at the points `x` [m]."""
     at, length, per_second = points_of_beam("x", x, beam.length), beam.length, beam.frequency_scale
     slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
     z = length * model.integrated(model.slope(q), at)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import replace
-from typing import Any, Literal
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -17,16 +17,84 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import MOST_FUNCTIONS, resolved_model
-from ..beam.steady import SteadyBeam, steady_rotation
+from ..beam.continuum import Continuum
+from ..beam.state import Driven
+from ..beam.steady import MOST_FUNCTIONS, Discretized, SteadyBeam, resolved_model, steady_rotation
 from ..linear.modes import linear_modes
+from ..space.continuum import SpaceContinuum
 from ..space.modes import DIRECTIONS, require_gauge
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .forced_orbits import ForcedResponse, ResponseNotReachedError, SpaceForcedResponse
-from .loading import DrivenBlade, unit_load
+from .transient import pushes, unit_load
 
-_MOST_HARMONICS = 100  # dense matrices of so many times twice the functions
 _LARGEST = 0.95  # |q|/L to which a response is followed
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenBlade(Discretized):
+    """The blade under one load in steady rotation, in its plane or in space; a system of `methods`.
+
+    Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well. The
+    gauge is that of the blade without the load, which has no dimensions.
+    """
+
+    steady: SteadyBeam | SpaceBlade
+    load: Load
+    driven: ClassVar[bool] = True
+    odd: ClassVar[None] = None
+
+    @property
+    def model(self) -> Continuum | SpaceContinuum:
+        """The discretization."""
+        return self.steady.model
+
+    @property
+    def gauge(self) -> Callable[[FloatArray], FloatArray]:
+        """The function that returns the tip's deflection, (samples,)."""
+        return self.steady.gauge
+
+    @property
+    def gauge_rate(self) -> Callable[[FloatArray, FloatArray], FloatArray]:
+        """The function that returns its rate, (samples,)."""
+        return self.steady.gauge_rate
+
+    @property
+    def gauge_gradient(self) -> Callable[[FloatArray], FloatArray]:
+        """The function that returns its derivatives to the coordinates, (samples, n)."""
+        return self.steady.gauge_gradient
+
+    def refined(self) -> DrivenBlade:
+        """Return the blade on half as many functions again."""
+        return replace(self, steady=self.steady.refined())
+
+    @property
+    def _turns(self) -> bool:
+        return self.load.varied == "speed"
+
+    def speed(self, frequency: float) -> float:
+        """Return w̄."""
+        return frequency if self._turns else self.steady.rate
+
+    def unloaded(self, frequency: float) -> SteadyBeam | SpaceBlade:
+        """Return the blade in steady rotation without the load."""
+        return replace(self.steady, rate=frequency) if self._turns else self.steady
+
+    def rest(self, frequency: float) -> FloatArray:
+        """Return the steady state without the load, (n,)."""
+        return self.unloaded(frequency).equilibrium
+
+    def loaded(self, share: float) -> DrivenBlade:
+        """Return the blade under a share of the load."""
+        return replace(self, load=self.load.times(share))
+
+    def by(self, *drive: Any) -> Driven:
+        """Return what drives it at the phases."""
+        phase, nu = drive
+        # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
+        angle = phase if self._turns else np.full_like(phase, np.nan)
+        push = pushes(self.model, [(self.load, phase)], angle)
+        rate = self.speed(nu) + self.load.rate(phase)
+        return Driven(rate, self.load.acceleration(phase, nu), push)
 
 
 @one_thread
@@ -126,7 +194,7 @@ def forced_response(
         _require_no_resonance(beam, None if by_speed else highest, theory, asked)
     # Deflections are told from the steady state, at changing speeds from that at rest.
     system = DrivenBlade(replace(steady, rate=0.0) if by_speed else steady, unit)
-    least = whole_number("harmonics", harmonics, most=_MOST_HARMONICS)
+    least = whole_number("harmonics", harmonics)
     try:
         found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least, tail)
     except NoOrbitError as failed:

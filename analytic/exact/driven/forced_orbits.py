@@ -43,9 +43,7 @@ class ForcedResponse(Branch):
 
     Attributes
     ----------
-    beam : Beam or Blade
-    load : load
-    theory : Theory
+    beam, load, theory : as given
     omega : ndarray (points,)
         Rotation speed ω [rad/s].
     frequency : ndarray (points,)

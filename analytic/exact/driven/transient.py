@@ -1,4 +1,8 @@
-"""Motion of the exact blade in time, step by step in the rotating frame."""
+"""Motion of the exact blade in time, step by step in the rotating frame, and what drives it.
+
+A load is a complex force in the frame of the clamp, per mass (gravity), per length, or at the tip.
+A ripple of the speed is no force but changes w and ẇ.
+"""
 
 from __future__ import annotations
 
@@ -11,14 +15,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...arrays import FloatArray, few_at_once
-from ...beam import AnyBlade
-from ...loads import Load
+from ...beam import AnyBlade, require_blade
+from ...loads import Load, require_load
 from ...methods.collocation import OWN_TANGENT, TANGENT_BEFORE, radau
 from ...motion import Rotation
 from ..beam.continuum import Continuum
 from ..beam.state import Driven
 from ..space.continuum import SpaceContinuum
-from .loading import pushes, unit_load
 
 _STAGES = 8
 _CREDIT, _MOST_CREDIT = 3, 10  # failures, before a tangent of the steps before is no longer tried
@@ -44,6 +47,28 @@ class BladeMotion(NamedTuple):
     twist: FloatArray
     axis: Any
     state: FloatArray
+
+
+def unit_load(beam: AnyBlade, load: Load) -> Load:
+    """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0)."""
+    require_blade(beam)
+    require_load(load)
+    return load.in_units(
+        beam.length, beam.mass_per_length * beam.length, 1.0 / beam.frequency_scale
+    )
+
+
+def pushes(
+    model: Continuum | SpaceContinuum, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray
+) -> Any:
+    """Return the force of all loads, with their phases (samples,), as a model takes it, or None."""
+    total: Any = None
+    for load, phase in loads:
+        if load.acts_on is not None:
+            force, lift = load.force(phase, angle, model.setting), load.lift(phase)
+            push = model.push(force, load.acts_on, lift)
+            total = push if total is None else total + push
+    return total
 
 
 def drive(

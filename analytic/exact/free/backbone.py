@@ -12,7 +12,7 @@ from ...input_checks import peak_deflection, positive, rotation_speed, whole_num
 from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.discretization import resolved_model
+from ..beam.steady import resolved_model
 from ..space.modes import orbit_modes, require_gauge
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
@@ -21,7 +21,6 @@ from .leaving import LeavingBranch, leaving_branch
 from .orbits import Orbits, SpaceOrbits, orbits_of
 from .path import ModePath
 
-_MOST_COEFFICIENTS = 1000  # an orbit for each
 _NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
 
 
@@ -29,17 +28,8 @@ _NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
 class Backbone(ModePath):
     """Free orbits of the exact beam that grow out of one mode at one speed; made by `backbone`.
 
-    It computes when it is asked, and keeps its path of orbits.
-
-    Attributes
-    ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        The mode from which the orbits grow, from 1.
-    theory : Theory
-        Extension, shear and rotary inertia.
+    It has the beam, omega, mode and theory that are given, computes when it is asked, and keeps its
+    path of orbits.
 
     Examples
     --------
@@ -64,7 +54,7 @@ class Backbone(ModePath):
     ) -> BackboneCurve:
         """Return the backbone as a series in a², as `backbone_curve` does."""
         up_to = peak_deflection("up_to", up_to)
-        count = whole_number("coefficients", coefficients, least=5, most=_MOST_COEFFICIENTS)
+        count = whole_number("coefficients", coefficients, least=5)
         if positive("tolerance", tolerance) < 1e-10:
             raise ValueError(
                 f"tolerance must be at least 1e-10, got {tolerance:g}: orbits keep no more"

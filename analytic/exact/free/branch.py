@@ -11,22 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade
-from ...input_checks import finite_values, points_of_beam, whole_number
+from ...input_checks import finite_number, finite_values, points_of_beam, whole_number
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
-from ..beam.section_loads import SectionLoads, in_newtons
-from ..beam.state import BeamState
-from ..beam.steady import orbit_state
+from ..beam.state import BeamState, SectionLoads, in_newtons
+from ..beam.steady import state_of
 
 _SAMPLES = 4096  # of a period, which find its ends to 3e-7 of a swing
-
-
-class AmplitudeNotReachedError(RuntimeError):
-    """An amplitude was not reached; `orbits` are the Orbits below it, or None."""
-
-    def __init__(self, message: str, orbits: Any = None) -> None:
-        super().__init__(message)
-        self.orbits = orbits
 
 
 class SpecialPoint(NamedTuple):
@@ -46,26 +37,15 @@ class SpecialPoint(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class OrbitSet:
-    """Periodic orbits of one blade; base of `Orbits`, `BackboneBranch` and `ForcedResponse`.
-
-    Attributes
-    ----------
-    beam : Beam or Blade
-    frequency : ndarray (orbits,)
-        [rad/s].
-    amplitude : ndarray (orbits,)
-        Peak |q|/L.
-    nondimensional : tuple of Orbit
-        The orbits as `analytic.methods` have them, in time t √(EI/mL³).
-    """
+    """Periodic orbits of one blade; base of `Orbits`, `BackboneBranch` and `ForcedResponse`."""
 
     _covered: ClassVar[int] = 6
     _tolerance: ClassVar[float] = 1e-6
 
     beam: AnyBlade
-    frequency: FloatArray
-    amplitude: FloatArray
-    nondimensional: tuple[Orbit[Any], ...] = field(repr=False)
+    frequency: FloatArray  # [rad/s], (orbits,)
+    amplitude: FloatArray  # peak |q|/L, (orbits,)
+    nondimensional: tuple[Orbit[Any], ...] = field(repr=False)  # in time t √(EI/mL³)
 
     def _orbit(self, i: int) -> Orbit[Any]:
         count = len(self.nondimensional)
@@ -88,7 +68,9 @@ class OrbitSet:
 
         In the frame of the clamp. Points beyond the beam, from 0 to L, are refused.
         """
-        return orbit_state(self.beam, self._orbit(i), x, phase)
+        orbit = self._orbit(i)
+        (q,), (q_dot,), _ = orbit.coordinates(np.array([finite_number("phase", phase, "rad")]))
+        return state_of(self.beam, orbit.system.model, q, q_dot, x)
 
     def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].
@@ -152,9 +134,7 @@ class SpaceOrbitSet(OrbitSet):
 
         Along the clamp, in the direction of rotation (lag) and normal to both (flap).
         """
-        orbit = self._orbit(i)
-        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        return np.asarray(self.beam.length * orbit.system.model.tip(q))
+        return np.asarray(self.axis(i, self.beam.length, phase)[:, 0])
 
     def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> Any:
         """Return the places of the material points `x` [m], as `tip`, (phases, points, 3)."""
@@ -203,16 +183,9 @@ class SpaceOrbitSet(OrbitSet):
 
 @dataclass(frozen=True, kw_only=True)
 class Branch(OrbitSet):
-    """Periodic orbits in order along a curve, with marks at the special ones.
+    """Periodic orbits in order along a curve, with marks at the special ones."""
 
-    Attributes
-    ----------
-    marks : tuple of str
-        Mark of each point: "fold" where the curve turns around, "branch point" where another curve
-        crosses, "peak" where the amplitude of a response is greatest or least, "asked" for; or "".
-    """
-
-    marks: tuple[str, ...] = field(repr=False)
+    marks: tuple[str, ...] = field(repr=False)  # each a `Mark` of `methods.orbit_curve`
 
     def _marked(self, mark: str) -> tuple[SpecialPoint, ...]:
         return tuple(

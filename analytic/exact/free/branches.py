@@ -40,10 +40,7 @@ class BackboneBranch(Branch):
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
+    beam, omega, mode : those of the backbone
     amplitude : ndarray (points,)
         Peak |q|/L, in order along each piece.
     frequency : ndarray (points,)
@@ -89,7 +86,7 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
         main, end = [*main, *(orbit for orbit, _ in end[1:])], None
     per_second = of.beam.frequency_scale
     met = []
-    for one in resonances_along(main, of.modes, of.mode, per_second):
+    for one in resonances_along(of, main):
         near, place = pinned(of.path.at, main, one)
         main = sorted([*main, *near], key=lambda orbit: orbit.amplitude)
         met.append(one._replace(amplitude=place, frequency=frequency_at(main, place) * per_second))

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Chebyshev, Polynomial
@@ -24,17 +22,14 @@ from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
 from ...warning import warn
 from ..beam.steady import BeamOrbit
-from .branch import AmplitudeNotReachedError
 from .internal_resonance import nearest_resonance
-from .path import ModePath
+from .path import AmplitudeNotReachedError, ModePath
 
 _SHORTER = 0.93  # of the range, where orbits end
 _SHORTEST = 0.1  # of what was asked for
 _LARGEST_DRIFT = 5e-9  # of the Jacobi integral: ω_NL then keeps 1e-10, the first harmonic 2e-9
 _MOST_HARMONICS = 40  # those of orbits up to 0.8; near a resonance they need more
 _APART = 0.08  # orbits at which resonances are looked for
-_SHARE = 1.0 / 3.0  # of a curve's error, which coefficients left out may have
-_BLOCK = 32768  # amplitudes that stay in the cache while powers are summed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,11 +38,7 @@ class BackboneCurve:
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        From 1.
+    beam, omega, mode : as given
     omega_n : float
         ω_n [rad/s].
     holds_up_to : float
@@ -68,23 +59,15 @@ class BackboneCurve:
     series: Chebyshev = field(repr=False)
     first: Chebyshev = field(repr=False)
 
-    @cached_property
-    def _powers(self) -> FloatArray:
-        return in_powers(_shortened(self.series, _SHARE * self.error))
-
-    @cached_property
-    def _first_powers(self) -> FloatArray:
-        return in_powers(_shortened(self.first, _SHARE * self.error))
-
     @property
     def lambda_omega(self) -> float:
         """λ_ω of ω_NL = ω_n (1 - λ_ω a² - κ a⁴ - ...) [-], a the peak."""
-        return -float(in_powers(self.series)[1])
+        return -float(self.series.convert(kind=Polynomial).coef[1])
 
     @property
     def kappa(self) -> float:
         """κ of the same [-], the fifth order of the extensible beam."""
-        return -float(in_powers(self.series)[2])
+        return -float(self.series.convert(kind=Polynomial).coef[2])
 
     def frequency(self, a: ArrayLike) -> FloatArray:
         """Return ω_NL [rad/s] at the peaks `a`, of their shape.
@@ -94,12 +77,12 @@ class BackboneCurve:
         ValueError
             If an amplitude is negative, or above `holds_up_to`.
         """
-        return in_square(self.omega_n * self._powers, self._within(a))
+        return self.omega_n * self.series(self._within(a) ** 2)
 
     def first_harmonic(self, a: ArrayLike) -> FloatArray:
         """Return the first harmonic of q/L at the peaks `a`, of their shape; refuses as above."""
         amplitude = self._within(a)
-        return amplitude * in_square(self._first_powers, amplitude)
+        return amplitude * self.first(amplitude**2)
 
     def _within(self, a: ArrayLike) -> FloatArray:
         amplitude = float_array("amplitude", a)
@@ -121,39 +104,12 @@ class BackboneCurve:
         )
 
 
-def _shortened(series: Chebyshev, error: float) -> Chebyshev:
-    """Return the series without the last coefficients, as many as sum up to less than `error`."""
-    left_out = np.cumsum(np.abs(series.coef[::-1]))
-    return series.cutdeg(series.degree() - int(np.sum(left_out < error)))
-
-
-def in_powers(series: Chebyshev) -> FloatArray:
-    """Return the coefficients of the powers of a²."""
-    return np.asarray(series.convert(kind=Polynomial, domain=[-1.0, 1.0], window=[-1.0, 1.0]).coef)
-
-
-def in_square(coefficients: FloatArray, a: FloatArray) -> FloatArray:
-    """Return Σ c_k a^2k, of the shape of `a`: by Horner's rule, in blocks that fit the cache."""
-    flat, powers = np.ravel(a), [*coefficients.tolist(), 0.0][: max(2, len(coefficients))]
-    result, squares = np.empty_like(flat), np.empty(min(flat.size, _BLOCK))
-    for start in range(0, flat.size, _BLOCK):
-        part = flat[start : start + _BLOCK]
-        square, value = squares[: part.size], result[start : start + _BLOCK]
-        np.multiply(part, part, out=square)
-        np.multiply(square, powers[-1], out=value)
-        for power in powers[-2:0:-1]:
-            value += power
-            value *= square
-        value += powers[0]
-    # A scalar for a scalar, as NumPy's own functions have it.
-    return result.reshape(np.shape(a))[()]
-
-
 def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> BackboneCurve:
     """Return the series of a backbone, on as many functions as it needs."""
-    model = of.model
+    model, drift = of.model, max(THOROUGH.drift, min(_LARGEST_DRIFT, 0.5 * tolerance))
+    care = Care(drift=drift, harmonics=_MOST_HARMONICS, halvings=1, tail=of.care.tail)
     while True:
-        of = replace(of, model=model, care=care_for(tolerance)._replace(tail=of.care.tail))
+        of = replace(of, model=model, care=care)
         curve = fitted_curve(of, up_to, count, tolerance)
         largest = [o for o in of.path.nodes if o.amplitude <= curve.holds_up_to][-1]
         model = largest.system.refined().model
@@ -166,16 +122,10 @@ def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> B
         warn(
             f"the backbone at omega = {of.omega:g} rad/s has a series of {count} coefficients that "
             f"holds to {tolerance:g} up to a = {curve.holds_up_to:.4g} only, not up to {up_to:g}"
-            f"{nearest_resonance(below, of.modes, of.mode)}; ask for more coefficients, or take "
+            f"{nearest_resonance(of, below)}; ask for more coefficients, or take "
             f"backbone(...).branch"
         )
     return curve
-
-
-def care_for(tolerance: float) -> Care:
-    """Return with how much care orbits are sought for a series of this tolerance."""
-    drift = max(THOROUGH.drift, min(_LARGEST_DRIFT, 0.5 * tolerance))
-    return Care(drift=drift, harmonics=_MOST_HARMONICS, halvings=1)
 
 
 def fitted_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> BackboneCurve:
@@ -188,17 +138,8 @@ def fitted_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> Ba
             top = _SHORTER * min(top, of.path.nodes[-1].amplitude)
             continue
         if fitted.error <= tolerance:
-            return BackboneCurve(
-                beam=of.beam,
-                omega=of.omega,
-                mode=of.mode,
-                omega_n=of.omega_n,
-                holds_up_to=top,
-                error=fitted.error,
-                series=fitted.series,
-                first=fitted.first,
-            )
-        top = _converging(fitted, top, 0.5 * tolerance)
+            return fitted
+        top = _converging(fitted, 0.5 * tolerance)
     raise AmplitudeNotReachedError(
         f"{count} coefficients do not resolve the backbone of {of.name} to {tolerance:g} even "
         f"up to a = {top:.3g}: ask for more of them, or take backbone(...).branch"
@@ -214,37 +155,31 @@ def _apart(orbits: list[BeamOrbit]) -> list[BeamOrbit]:
     return kept[::-1]
 
 
-class _Fitted(NamedTuple):
-    """Series in a² of ω_NL/ω_n and of the first harmonic over the peak, and their error."""
-
-    series: Chebyshev
-    first: Chebyshev
-    error: float
-
-
-def _fitted(of: ModePath, top: float, count: int) -> _Fitted:
+def _fitted(of: ModePath, top: float, count: int) -> BackboneCurve:
     angle = 0.5 * np.pi / (count - 1)
     at, between = (top * np.sin(angle * (np.arange(count) + half)) for half in (0.0, 0.5))
     # The highest that it was not made from, where it is worst, one amid, and a low one.
     checked = np.sort(between[[count - 2, count // 2, 1]])
     # Laid in one row, so that a tangent serves its neighbours.
     asked = np.sort(np.concatenate((at[1:], checked)))
-    found = _of_orbits(of, asked)
+    orbits, linear = [of.path.laid(a) for a in asked.tolist()], float(of.modes[of.mode - 1])
+    found = np.array([[o.frequency / linear, o.gauge_sines[0] / o.amplitude] for o in orbits])
     made, shown = (found[np.isin(asked, which)] for which in (at, checked))
     values = np.vstack(([1.0, 1.0], made))
     series, first = (
         Chebyshev.fit(at**2, column, count - 1, domain=[0.0, top**2]) for column in values.T
     )
     apart = np.stack((series(checked**2), first(checked**2)), axis=1) - shown
-    error = max(_tail(series), _tail(first), float(np.abs(apart).max()))
-    return _Fitted(series, first, error)
-
-
-def _of_orbits(of: ModePath, amplitudes: FloatArray) -> FloatArray:
-    """Return ω_NL/ω_n and the first harmonic over the peak of orbits, (orbits, 2)."""
-    linear = float(of.modes[of.mode - 1])
-    orbits = [of.path.laid(a) for a in amplitudes.tolist()]
-    return np.array([[o.frequency / linear, o.gauge_sines[0] / o.amplitude] for o in orbits])
+    return BackboneCurve(
+        beam=of.beam,
+        omega=of.omega,
+        mode=of.mode,
+        omega_n=of.omega_n,
+        holds_up_to=top,
+        error=max(_tail(series), _tail(first), float(np.abs(apart).max())),
+        series=series,
+        first=first,
+    )
 
 
 def _rate(series: Chebyshev) -> float:
@@ -259,12 +194,12 @@ def _tail(series: Chebyshev) -> float:
     return abs(float(series.coef[-1])) * rate / (1.0 - rate)
 
 
-def _converging(fitted: _Fitted, top: float, error: float) -> float:
+def _converging(curve: BackboneCurve, error: float) -> float:
     """Return the range on which a series of as many coefficients has about this error.
 
     They fall by 1/(z + √(z² - 1)), z the place of the next singularity where the range is [-1, 1].
     """
-    rate = max(_rate(fitted.series), _rate(fitted.first), 0.1)
-    wanted = rate * (error / fitted.error) ** (1.0 / fitted.series.degree())
+    rate = max(_rate(curve.series), _rate(curve.first), 0.1)
+    wanted = rate * (error / curve.error) ** (1.0 / curve.series.degree())
     here, there = (0.5 * (1.0 / r + r) for r in (rate, wanted))
-    return top * min(0.97, max(0.7, math.sqrt((here + 1.0) / (there + 1.0))))
+    return curve.holds_up_to * min(0.97, max(0.7, math.sqrt((here + 1.0) / (there + 1.0))))

@@ -7,7 +7,7 @@ multipliers exp(2πi ν_j/Ω) tell. Harmonic k drives mode j where ν_j = kΩ: t
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -18,6 +18,7 @@ from ...methods.floquet import floquet_multipliers
 from ...methods.newton import NoOrbitError
 from ...warning import warn
 from ..beam.steady import BeamOrbit
+from .path import ModePath
 
 _NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
 _PERHAPS = 0.1  # how far a mode's frequency about an orbit is from the linear one's, at most
@@ -49,17 +50,15 @@ class Resonance(NamedTuple):
     frequency: float
 
 
-def frequency_ratios(
-    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int
-) -> tuple[list[int], FloatArray]:
+def frequency_ratios(of: ModePath, orbits: Sequence[BeamOrbit]) -> tuple[list[int], FloatArray]:
     """Return the lowest other modes, from 1, and their ν_j/Ω (orbits, modes) about orbits.
 
-    They ascend along the branch of a `mode`, `modes` are linear frequencies. Multipliers leave open
-    how many turns a mode makes in a period; it is followed in the square of the amplitude.
+    They ascend along the path of a mode. Multipliers leave open how many turns a mode makes in a
+    period; it is followed in the square of the amplitude.
     """
-    others = _others(modes, mode)
+    others = _others(of)
     squares = np.array([0.0, *(orbit.amplitude**2 for orbit in orbits)])
-    ratios = [modes[others] / modes[mode - 1]]
+    ratios = [of.modes[others] / of.modes[of.mode - 1]]
     for i, orbit in enumerate(orbits, start=1):
         expected = ratios[-1]
         if i > 1:
@@ -69,9 +68,9 @@ def frequency_ratios(
     return [j + 1 for j in others], np.array(ratios[1:])
 
 
-def _others(modes: FloatArray, mode: int) -> list[int]:
+def _others(of: ModePath) -> list[int]:
     """Return the places of the lowest four other modes."""
-    return [j for j in range(min(5, modes.size)) if j != mode - 1]
+    return [j for j in range(min(5, of.modes.size)) if j != of.mode - 1]
 
 
 def _nearest(orbit: BeamOrbit, expected: FloatArray) -> FloatArray:
@@ -89,11 +88,9 @@ def _turns(orbit: BeamOrbit, count: int) -> FloatArray:
     return np.asarray(np.abs(np.angle(found.values[2::2])) / (2.0 * np.pi))
 
 
-def resonances_along(
-    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float
-) -> list[Resonance]:
-    """Return the internal resonances between successive orbits; the unit of Ω is `per_second`."""
-    others, ratios = frequency_ratios(orbits, modes, mode)
+def resonances_along(of: ModePath, orbits: Sequence[BeamOrbit]) -> list[Resonance]:
+    """Return the internal resonances between successive orbits."""
+    others, ratios = frequency_ratios(of, orbits)
     met: list[Resonance] = []
     for i, pair in enumerate(pairwise(ratios)):
         for j, before, after in zip(others, *pair, strict=True):
@@ -105,7 +102,8 @@ def resonances_along(
                 here, there = (orbit.amplitude for orbit in orbits[i : i + 2])
                 a = float(here + share * (there - here))
                 a = _pole(orbits[max(i - 1, 0) : i + 3], k) or a
-                met.append(Resonance(k, j, a, frequency_at(orbits, a) * per_second))
+                frequency = frequency_at(orbits, a) * of.beam.frequency_scale
+                met.append(Resonance(k, j, a, frequency))
     return sorted(met, key=lambda one: one.amplitude)
 
 
@@ -163,9 +161,9 @@ def _drives(orbit: BeamOrbit, k: int) -> bool:
     return k % 2 == 1 or abs(coupled) > 1e-9
 
 
-def nearest_resonance(orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int) -> str:
+def nearest_resonance(of: ModePath, orbits: Sequence[BeamOrbit]) -> str:
     """Return which harmonic is nearest to another mode at the last orbit: why a branch bends."""
-    others, ratios = frequency_ratios(orbits, modes, mode)
+    others, ratios = frequency_ratios(of, orbits)
     # Slower modes have no harmonic to meet.
     distance = np.where(ratios[-1] > 1.5, np.abs(np.round(ratios[-1]) / ratios[-1] - 1.0), np.inf)
     # The higher a harmonic, the less it is felt.
@@ -176,10 +174,9 @@ def nearest_resonance(orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int)
     )
 
 
-def outstanding(orbit: BeamOrbit, modes: FloatArray, mode: int) -> list[int]:
+def outstanding(of: ModePath, orbit: BeamOrbit) -> list[int]:
     """Return the harmonics larger than the one before that may be near another mode."""
-    others = modes[_others(modes, mode)]
-    sizes = orbit.sizes
+    others, sizes = of.modes[_others(of)], orbit.sizes
     return [
         k + 1
         for k in range(2, sizes.size)
@@ -188,12 +185,10 @@ def outstanding(orbit: BeamOrbit, modes: FloatArray, mode: int) -> list[int]:
     ]
 
 
-def warn_of_resonances(
-    orbits: Sequence[BeamOrbit], modes: FloatArray, mode: int, per_second: float, there: str
-) -> None:
+def warn_of_resonances(of: ModePath, orbits: Iterable[BeamOrbit]) -> None:
     """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
-    others = _others(modes, mode)
-    suspects = [(orbit, ks) for orbit in orbits if (ks := outstanding(orbit, modes, mode))]
+    others = _others(of)
+    suspects = [(orbit, ks) for orbit in orbits if (ks := outstanding(of, orbit))]
     # Multipliers cost more than an orbit does: of very many a few are looked at.
     looked = np.unique(np.linspace(0, len(suspects) - 1, _LOOKS).round().astype(int))
     warned: set[tuple[int, int]] = set()
@@ -204,7 +199,7 @@ def warn_of_resonances(
             near = [
                 (float(t), j + 1)
                 for t, j in zip(turns, others, strict=True)
-                if abs(modes[j] / orbit.frequency / k - 1.0) < _PERHAPS and t < _NEAR
+                if abs(of.modes[j] / orbit.frequency / k - 1.0) < _PERHAPS and t < _NEAR
             ]
             if not near or (k, min(near)[1]) in warned:
                 continue
@@ -212,7 +207,7 @@ def warn_of_resonances(
             warned.add((k, j))
             warn(
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
-                f"of mode {mode} ({k * orbit.frequency * per_second:.4f} rad/s) is "
+                f"of mode {of.mode} ({k * orbit.frequency * of.beam.frequency_scale:.4f} rad/s) is "
                 f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
-                f"tell; {there}"
+                f"tell; {of.at_resonance}"
             )

@@ -53,11 +53,7 @@ class LeavingBranch(SpaceOrbitSet, Branch):
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        Planar mode from which the planar orbits grow, from 1.
+    beam, omega, mode : those of the backbone
     periods : int
         Periods of the planar orbit that one of these orbits takes at first: 1 or 2.
     mirror : bool
@@ -106,10 +102,11 @@ class LeavingBranch(SpaceOrbitSet, Branch):
         frequency = np.append(self.born.frequency, self.periods * self.frequency)
         starts = (self.born.amplitude, 0.0, 0.0)
         names = ("lag, |q|/L", "flap, |w|/L", "twist [rad]")
-        for name, start, height in zip(names, starts, self.largest.T, strict=True):
+        courses = zip(names, starts, (2.0, 1.2, 0.6), self.largest.T, strict=True)
+        for name, start, width, height in courses:
             draw_response(
                 ax, frequency, np.append(start, height), np.append(stable[:1], stable),
-                np.zeros(frequency.size, dtype=bool), label=name,
+                np.zeros(frequency.size, dtype=bool), label=name, lw=width,
             )  # fmt: skip
         ax.plot(self.born.frequency, self.born.amplitude, "o", color="black", ms=4.0)
         ax.set(xlabel="frequency of the lag [rad/s]", ylabel="largest value at the tip")

@@ -16,9 +16,9 @@ from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
 from ..beam.steady import BeamOrbit
-from .branch import AmplitudeNotReachedError, OrbitSet, SpaceOrbitSet
+from .branch import OrbitSet, SpaceOrbitSet
 from .internal_resonance import nearest_resonance, outstanding, warn_of_resonances
-from .path import ModePath
+from .path import AmplitudeNotReachedError, ModePath
 
 if TYPE_CHECKING:
     from ...plotting import Axes
@@ -34,11 +34,7 @@ class Orbits(OrbitSet):
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        The mode from which the orbits grow, from 1.
+    beam, omega, mode : as given
     omega_n : float
         Its linear frequency ω_n [rad/s].
     amplitude : ndarray (orbits,)
@@ -150,9 +146,7 @@ def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits]) -> Orbits
     ascending, place = np.unique(asked, return_inverse=True)
     found, refused = _found(of, ascending)
     found = _confirmed(of, found)
-    warn_of_resonances(
-        list(found.values()), of.modes, of.mode, of.beam.frequency_scale, of.at_resonance
-    )
+    warn_of_resonances(of, found.values())
     kept = [found[a] for a in ascending[place].tolist() if a in found]
     orbits = _packed(of, kept, kind) if kept else None
     if orbits is None or refused:
@@ -181,7 +175,7 @@ def _confirmed(of: ModePath, found: dict[float, BeamOrbit]) -> dict[float, BeamO
     changes no frequency. The last change is the error.
     """
     for _ in range(_RELAID):
-        suspects = [a for a, o in found.items() if outstanding(o, of.modes, of.mode)]
+        suspects = [a for a, o in found.items() if outstanding(of, o)]
         if not suspects:
             break
         of = replace(of, model=of.path.seed.system.refined().model)
@@ -208,7 +202,7 @@ def _why(of: ModePath, a: float) -> str:
         )
     nodes = of.path.nodes
     below = [orbit for orbit in nodes if orbit.amplitude <= a]
-    nearest = nearest_resonance(below, of.modes, of.mode)
+    nearest = nearest_resonance(of, below)
     if below[-1] is nodes[-1]:
         return f"{nearest}; ask for smaller amplitudes"
     return f"{nearest}; ask for amplitudes beyond it: {of.at_resonance}"

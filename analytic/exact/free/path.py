@@ -21,9 +21,16 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
 from ..beam.steady import SteadyBeam, solve_modes, steady_rotation
-from .branch import AmplitudeNotReachedError
 
 _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
+
+
+class AmplitudeNotReachedError(RuntimeError):
+    """An amplitude was not reached; `orbits` are the Orbits below it, or None."""
+
+    def __init__(self, message: str, orbits: Any = None) -> None:
+        super().__init__(message)
+        self.orbits = orbits
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
 _SOLVED, _DRAWN = 9, 61  # speeds of a picture's curves, besides their own: chords below a pixel
 _TURNED = 1e-12  # of cos ψ, which is no number of its own at a right angle
-_MOST_ORDERS = 1000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -203,7 +202,7 @@ def campbell(
         rotation_speed(float(speed), "omegas")
     if np.any(np.diff(speeds) <= 0.0):
         raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
-    count, orders = whole_number("count", count), whole_number("orders", orders, most=_MOST_ORDERS)
+    count, orders = whole_number("count", count), whole_number("orders", orders)
     if not planes or len(set(planes)) < len(planes):
         raise ValueError(f"planes must name families once each, got {list(planes)}")
     families = [family_of(beam, speeds, count, orders, plane, theory) for plane in planes]

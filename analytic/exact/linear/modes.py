@@ -1,10 +1,10 @@
-"""Linear modes of the exact beam about its rotating steady state, in its plane and out of it."""
+"""Linear modes of the exact beam about its rotating steady state, and how fast they decay."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Literal, cast, get_args
+from typing import Any, Literal, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,17 +13,25 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_out_of_plane, warn_if_rpm
 from ...blade import Blade
 from ...input_checks import points_of_beam, rotation_speed, whole_number
+from ...methods.gyroscopic import inverse_eigenvalues
 from ...profiles import in_units
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..beam.continuum import Continuum
-from ..beam.discretization import MOST_FUNCTIONS, resolved_model
-from ..beam.steady import Modes, SteadyBeam, solve_modes, steady_rotation
+from ..beam.steady import (
+    MOST_FUNCTIONS,
+    Modes,
+    SteadyBeam,
+    resolved_model,
+    solve_modes,
+    steady_rotation,
+)
 from ..space.modes import space_modes, torsion_modes
-from ..space.steady import lives_in_space
+from ..space.steady import lives_in_space, space_rotation
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
+_SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,9 +40,7 @@ class LinearModes:
 
     Attributes
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
+    beam, omega : as given
     frequencies : ndarray (count,)
         Natural frequencies in the rotating frame [rad/s], ascending.
     coordinates : ndarray (count, n)
@@ -150,9 +156,17 @@ def linear_modes(
             "'flap': leave them out"
         )
     bent = flap_blade(beam) if plane == "flap" else beam
-    model = resolved_model(bent, count, theory, functions)
-    model, modes = settled_modes(bent, omega, count, model)
-    return replace(_in_units(bent, omega, count, model, modes), beam=beam)
+    # Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
+    first = steady_rotation(bent, omega, resolved_model(bent, count, theory, functions))
+    (steady, modes), *_ = settled(
+        lambda steady: (steady, solve_modes(steady)),
+        refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
+        _SETTLED,
+        lambda found: np.log(found[1].frequencies[:count]),
+        f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
+        "rotate slower",
+    )
+    return replace(_in_units(bent, omega, count, steady.model, modes), beam=beam)
 
 
 def flap_blade(beam: AnyBlade) -> Blade:
@@ -190,21 +204,54 @@ def _in_units(
     )
 
 
-def settled_modes(
-    beam: AnyBlade, omega: float, count: int, model: Continuum, *, stretched: bool = True
-) -> tuple[Continuum, Modes]:
-    """Return the discretization that a finer one confirms, and its modes.
+@one_thread
+def damping_ratios(
+    beam: AnyBlade, omega: float, count: int = 3, *, theory: Theory = BERNOULLI_EULER
+) -> FloatArray:
+    """Return the damping ratios ζ of the modes of `linear_modes`, (count,).
 
-    About the stretched or the unstretched blade. Rotation bends it in a layer at the clamp, √2/w̄
-    thin, which takes ~√w̄ functions.
+    ζ = -Re λ/|λ| of the eigenvalues λ of small vibration about the stretched state; free vibration
+    of mode j decays as exp(-ζ_j |λ_j| t), with |λ_j| near the frequency of `linear_modes`.
+
+    Parameters
+    ----------
+    beam : Beam or Blade
+    omega : float
+        Rotation speed ω [rad/s].
+    count : int
+        Number of modes.
+    theory : Theory
+        Extension, shear, rotary inertia, trapeze effect.
+
+    Raises
+    ------
+    ValueError
+        If an input is refused, or a mode is damped so much that it does not oscillate.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, damping_ratios
+    >>> blade = Beam.reference().with_damping(Damping(bending=1e-3, external=0.01))
+    >>> for omega in (0.0, 6.0):
+    ...     print(damping_ratios(blade, omega).round(5))
+    [0.00996 0.01047 0.02601]
+    [0.00791 0.00831 0.02347]
     """
-    first = steady_rotation(beam, omega, model)
-    (steady, modes), *_ = settled(
-        lambda steady: (steady, solve_modes(steady, stretched=stretched)),
-        refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
-        _SETTLED,
-        lambda found: np.log(found[1].frequencies[:count]),
-        f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
-        "rotate slower",
-    )
-    return steady.model, modes
+    omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
+    modes = linear_modes(beam, omega, count, theory=theory, functions=max(20, 2 * count))
+    rotation: Any = space_rotation if lives_in_space(beam) else steady_rotation
+    steady = rotation(beam, omega, modes.model)
+    at_rest = np.zeros((1, steady.size))
+    tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
+    inverse = inverse_eigenvalues(tangent.mass[0], tangent.damping[0], tangent.stiffness[0])
+    inverse = inverse[inverse.imag < 0.0]
+    size = 1.0 / (np.abs(inverse) * modes.frequencies[:, None] / beam.frequency_scale)
+    nearest = np.argmin(np.abs(size - 1.0), axis=1)
+    for mode, found in enumerate(nearest):
+        if abs(size[mode, found] - 1.0) > _SAME or found in nearest[:mode]:
+            raise ValueError(
+                f"mode {mode + 1} is damped so much that it does not oscillate: ask for count="
+                f"{mode} or less, or take less damping"
+            )
+    # -Re λ/|λ| is -Re(1/λ)/|1/λ|.
+    return np.asarray(-inverse[nearest].real / np.abs(inverse[nearest]))

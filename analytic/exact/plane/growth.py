@@ -17,11 +17,9 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.discretization import resolved_model
 from ..beam.space import OutOfPlaneMotion, Space, with_points_for
-from ..beam.steady import SteadyBeam
-from ..free.branch import AmplitudeNotReachedError
-from ..free.path import ModePath
+from ..beam.steady import SteadyBeam, resolved_model
+from ..free.path import AmplitudeNotReachedError, ModePath
 
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""
@@ -43,19 +41,10 @@ _SHARE = 0.15  # of the energy, from which a mode is named
 
 
 class Growth(NamedTuple):
-    """Growth out of the plane over one period: the fastest motion.
+    """Growth out of the plane over one period: the fastest motion."""
 
-    Attributes
-    ----------
-    exponent : float
-        Logarithm of the largest multiplier's size.
-    multipliers : ndarray (8,)
-    kind : str
-    modes : tuple of str
-    """
-
-    exponent: float
-    multipliers: ComplexArray
+    exponent: float  # logarithm of the largest multiplier's size
+    multipliers: ComplexArray  # (8,)
     kind: str = ""
     modes: tuple[str, ...] = ()
 
@@ -143,19 +132,11 @@ def grown(
     return growth._replace(kind=kind, modes=modes)
 
 
-@lru_cache(maxsize=32)
-def _space(blade: AnyBlade, functions: int, theory: Theory) -> Space:
-    return Space(blade, functions, theory)
+_space = lru_cache(maxsize=32)(Space)
 
 
 def settled_functions(blade: AnyBlade, planar: SteadyBeam, theory: Theory) -> int:
-    """Return how many functions settle the flap modes; rotation bends them in a layer at the clamp.
-
-    Raises
-    ------
-    ValueError
-        If they do not settle, for the blade turns too fast.
-    """
+    """Return how many functions settle the flap modes, which rotation bends in a layer."""
 
     def flap(space: Space) -> FloatArray:
         return np.log(_steady_modes(space, with_points_for(planar, space.functions))[1][:4])
@@ -261,14 +242,6 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:
     It leaves if an orbit of that amplitude, or one of a few smaller ones, grows out of the plane by
     0.01 per radian. `stability_limit` gives the limit, which takes several times as long. A damped
     blade, or one without a known section out of the plane, gives "" too.
-
-    Parameters
-    ----------
-    blade : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    amplitude : float
-        Peak |q|/L of the motion, about that of an orbit of the first mode.
     """
     require_planar(blade)
     unit = blade.unit

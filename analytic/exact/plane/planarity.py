@@ -115,11 +115,7 @@ class PlanarStability(GrowthOutOfPlane):
 
     Attributes
     ----------
-    blade : Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        Planar mode from which the orbits grow, from 1.
+    blade, omega, mode : as given
 
     Examples
     --------

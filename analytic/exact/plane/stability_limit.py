@@ -59,13 +59,7 @@ class StabilityLimit:
 
     Attributes
     ----------
-    blade : Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        Planar mode from which the orbits grow, from 1.
-    damping : float
-        Damping ratio of the modes out of the plane, besides the blade's own damping.
+    blade, omega, mode, damping : as given
     growth : float
         Growth exponent over the orbit's frequency [1/rad] that counts.
     amplitude : float
@@ -94,9 +88,6 @@ class StabilityLimit:
     modes: tuple[str, ...]
     tongues: tuple[Tongue, ...]
     converged: bool
-
-    def __float__(self) -> float:
-        return self.amplitude
 
     def __str__(self) -> str:
         at = f"At {self.omega:g} rad/s the planar orbits of this section"

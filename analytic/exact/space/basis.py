@@ -68,23 +68,14 @@ class StrainFunctions:
 
     Coordinates stand in the order κ3 and κ2 in pairs, κ1, ε, γ2, γ3; a larger set of each begins
     with a smaller one.
-
-    Parameters
-    ----------
-    blade : SpaceUnit
-    theory : Theory
-    slenderness : float
-        μ.
-    bending, torsion, axial : int
-        Functions a panel for each curvature of bending, for κ1, and for ε and each γ.
     """
 
     blade: SpaceUnit
     theory: Theory
-    slenderness: float
-    bending: int
-    torsion: int
-    axial: int
+    slenderness: float  # μ
+    bending: int  # functions a panel for each curvature of bending
+    torsion: int  # for κ1
+    axial: int  # for ε and each γ
 
     @cached_property
     def counts(self) -> tuple[int, int, int, int]:

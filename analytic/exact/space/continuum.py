@@ -40,11 +40,6 @@ class SpaceContinuum:
 
     Samples in time come first in the coordinates (samples, n); residual and tangent are as those
     of `Continuum`, of which it has the coordinates.
-
-    Parameters
-    ----------
-    functions : StrainFunctions
-        The strains, and what the sections weigh.
     """
 
     has_dear_tangent: ClassVar[bool] = True

@@ -35,10 +35,7 @@ class SpaceModes:
 
     Attributes
     ----------
-    blade : Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    theory : Theory
+    blade, omega, theory : as given
     frequencies : ndarray (count,)
         Natural frequencies in the rotating frame [rad/s], ascending. Sections are free to warp: a
         clamp that holds it raises those of torsion by a quarter of its depth over the length.

@@ -17,9 +17,8 @@ from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
-from ..beam.discretization import require_shear
 from ..beam.state import Driven
-from ..beam.steady import AtConstantRate
+from ..beam.steady import AtConstantRate, require_shear
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
 from .unit import space_unit
@@ -91,45 +90,28 @@ def require_section(beam: AnyBlade) -> None:
 class SpaceBlade(AtConstantRate):
     """The blade in a frame that turns at a constant rate; a system of `methods`.
 
-    Attributes
-    ----------
-    model : SpaceContinuum
-    rate : float
-        w̄ = ω/√(EI3/mL³).
-    direction : tuple
-        Direction of the gauge, the tip's place from the steady state, in the root frame.
-    near : ndarray (n,), optional
-        Coordinates from which the steady state is found; from rest by default.
-    load : tuple
-        Dead force and moment at the tip in the root frame, over EI3/L² and EI3/L.
-    lift : float
-        Pull on all masses along the axis of rotation, over EI3/(m0 L³).
-    mirror : bool
-        Orbits are sought that the mirror maps onto themselves in reversed time, where the half turn
-        would as well.
+    The gauge is the tip's place from the steady state along a direction in the root frame. With
+    `mirror` orbits are sought that the mirror maps onto themselves in reversed time, where the half
+    turn would as well.
     """
 
     model: SpaceContinuum
-    rate: float
+    rate: float  # w̄ = ω/√(EI3/mL³)
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
-    near: FloatArray | None = None
-    load: tuple[tuple[float, ...], ...] = ()
-    lift: float = 0.0
+    near: FloatArray | None = None  # from where the steady state is found; from rest by default
+    load: tuple[tuple[float, ...], ...] = ()  # dead force and moment at the tip, over EI3/L², EI3/L
+    lift: float = 0.0  # pull on all masses along the axis of rotation, over EI3/(m0 L³)
     mirror: bool = False
 
     @cached_property
     def push(self) -> FloatArray | None:
         """The load, as `model.residual` takes it."""
-        if not self._is_loaded:
+        if not (self.load or self.lift):
             return None
         result = self.model.push(np.zeros(1, dtype=complex), "mass", self.lift)
         if self.load:
             result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
         return result
-
-    @property
-    def _is_loaded(self) -> bool:
-        return bool(self.load or self.lift)
 
     @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
@@ -154,7 +136,7 @@ class SpaceBlade(AtConstantRate):
             return found
         unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
-        straight = unit.half_turn and unit.mirrored and not self._is_loaded
+        straight = unit.half_turn and unit.mirrored and self.push is None
         whole = max(self.rate / LONGEST, self._loaded)
         q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
         step = longest = 1.0 / max(whole, 1.0)
@@ -165,7 +147,7 @@ class SpaceBlade(AtConstantRate):
                     return found
                 q, reached, step = found, share, min(1.5 * step, longest)
             elif share == 0.0 or step < _SHORTEST * longest:
-                load = f" and at {share:.4g} of the load" if self._is_loaded else ""
+                load = f" and at {share:.4g} of the load" if self.push is not None else ""
                 raise ValueError(
                     f"the steady state ends or becomes unstable at w_bar = {share * self.rate:.4g}"
                     f"{load}, before w_bar = {self.rate:.4g}: rotate slower, or load it less"
@@ -177,7 +159,7 @@ class SpaceBlade(AtConstantRate):
     @property
     def _loaded(self) -> float:
         """Angle by which the load bends or twists the softest section's blade, about."""
-        if not self._is_loaded:
+        if self.push is None:
             return 0.0
         own = self.model.functions
         soft = own.blade.flexibility(self.model.points, own.theory, own.slenderness)[:, 3:, 3:]

@@ -13,7 +13,7 @@ from ...input_checks import finite_array, finite_number, points_of_beam, rotatio
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.section_loads import SectionLoads, in_newtons
+from ..beam.state import SectionLoads, in_newtons
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 
@@ -23,14 +23,7 @@ class SteadyState:
 
     Attributes
     ----------
-    blade : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    theory : Theory
-    force, moment : tuple
-        At the tip [N], [N m].
-    gravity : float
-        Along the axis of rotation, against it [m/s²].
+    blade, omega, theory, force, moment, gravity : as given
     tip : ndarray (3,)
         Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
         normal to both, up; the precone tilts the first and the last.

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...arrays import FloatArray
-from ...beam import AnyBlade
-from ...line import STRAIGHT, Line, Offset, scaled
-from ...profiles import Profile, evaluated
+from ...arrays import FloatArray, Profile
+from ...parts import STRAIGHT, Line, Offset, scaled
+from ...profiles import evaluated
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
 from ...station_section import StationSection
@@ -20,36 +19,23 @@ from ...theory import Theory
 from ...unit_blade import UnitBlade
 from .vectors import Frames, about_axis, turned
 
+if TYPE_CHECKING:
+    from ...beam import AnyBlade
+
 _POINTS = 40  # on each panel, for the unloaded line
 
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceUnit(UnitBlade):
-    """A blade without dimensions, with its line and its section out of the plane.
+    """A blade without dimensions, with its line and its section out of the plane."""
 
-    Attributes
-    ----------
-    angle : float
-        ψ [rad].
-    line : Line
-        Over L.
-    flap, torsion : float
-        r = EI2/EI3 and g = GJ/EI3.
-    polar : float or None
-        ρI_p over m0 L² at the root, None of a homogeneous section.
-    told_rotary : bool
-        Whether the section tells `rotary`.
-    body_offsets : tuple
-        (c2, c3) over L of each point mass.
-    """
-
-    angle: float = 0.0
-    line: Line = STRAIGHT
-    flap: float = 1.0
-    torsion: float = math.inf
-    polar: float | None = None
-    told_rotary: bool = False
-    body_offsets: tuple[Offset, ...] = ()
+    angle: float = 0.0  # ψ [rad]
+    line: Line = STRAIGHT  # over L
+    flap: float = 1.0  # r = EI2/EI3
+    torsion: float = math.inf  # g = GJ/EI3
+    polar: float | None = None  # ρI_p over m0 L² at the root, None of a homogeneous section
+    told_rotary: bool = False  # whether the section tells `rotary`
+    body_offsets: tuple[Offset, ...] = ()  # (c2, c3) over L of each point mass
 
     @cached_property
     def panels(self) -> FloatArray:

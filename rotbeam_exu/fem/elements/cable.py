@@ -15,11 +15,10 @@ from analytic.beam import require_out_of_plane
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items
-from ..mesh import Mesh
+from ..mesh import Mesh, shapes
+from .energy_body import add_point_masses
 from .formulation import Chain, Formulation
 from .node_kinds import SlopeNodes, SpaceSlopeNodes, require_bare
-from .point_masses import add_point_masses
-from .polynomials import shapes
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))
 _GAUSS = tuple(zip(*gauss_points(2), strict=True))
@@ -163,8 +162,7 @@ def _integrated(
 ) -> FloatArray:
     """Return ∫(EA stretching + EI bending) dx, (samples,), as Exudyn integrates.
 
-    A row is positions and slopes, (samples, nodes, 2, ...). The integrands take the first
-    derivative of each row, that of bending the second after it.
+    Of rows of positions and slopes (samples, nodes, 2, ...), by their first and second derivatives.
     """
     ends = [np.concatenate((row[:, :-1], row[:, 1:]), axis=2) for row in rows]
 

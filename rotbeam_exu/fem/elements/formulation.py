@@ -14,15 +14,15 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.beam import require_blade
 from analytic.description import Described
-from analytic.exact.beam.section_loads import in_plane_of_bending
+from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.input_checks import finite_number, positive
 from analytic.lazily import sparse
 from analytic.motion import Rotation
 from analytic.theory import Theory
 
 from ..lazily import exudyn, items
-from .point_masses import TurningNode, spins
-from .polynomials import lagrange
+from ..mesh import lagrange
+from .energy_body import TurningNode, spins
 
 POISSON_RATIO = 0.3
 """Default ν of beams that shear; the paper gives neither ν nor a shear modulus."""

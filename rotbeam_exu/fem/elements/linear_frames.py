@@ -24,10 +24,10 @@ from analytic.lazily import linalg, optimize
 
 from ...lazily import xr
 from ..lazily import exudyn
+from ..mesh import HERMITE, scales
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain
 from .node_kinds import QUARTER_TURN, SlopeNodes
-from .polynomials import HERMITE, scales
 
 FloatingFrame = Literal["tangent", "pinned"]
 

@@ -14,12 +14,12 @@ import numpy as np
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.beam import require_blade
-from analytic.exact.beam.section_loads import in_plane_of_bending
+from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.exact.beam.state import BeamState
 from analytic.lazily import Lazily
 
+from ..mesh import shapes
 from .formulation import Formulation, cells
-from .polynomials import shapes
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 """The generator of plane rotations: (x, y) becomes (-y, x)."""
@@ -193,14 +193,8 @@ class FrameNodes(Formulation, abstract=True):
 
 
 def require_bare(element: Formulation, blade: AnyBlade) -> None:
-    """Refuse damping and point masses, which Exudyn's elements in space do not have."""
+    """Refuse point masses, which Exudyn's elements in space do not have."""
     require_blade(blade)
-    if any(blade.unit.damping):
-        raise ValueError(
-            f"element {element.name!r} is undamped, as Exudyn's geometrically exact beam ignores "
-            f"its damping, and this blade has {blade.unit.differences}: take "
-            "blade.with_damping(Damping())"
-        )
     if blade.unit.masses:
         raise ValueError(
             f"element {element.name!r} carries no point masses, and this blade has "

@@ -12,10 +12,9 @@ from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items
-from ..mesh import Mesh
+from ..mesh import Mesh, lagrange
 from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .node_kinds import AngleNodes
-from .polynomials import lagrange
 
 
 @dataclass(frozen=True, kw_only=True)

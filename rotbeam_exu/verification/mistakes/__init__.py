@@ -20,11 +20,9 @@ from ..judgement import THRESHOLDS, Judgement, Progress, judged
 from ..outcomes import Outcome
 from ..references import reference
 from ..submission import Submission
-from .histories import RAMPS, SMALL, mistake_in_history, mistake_in_space
+from .histories import RAMPS, SMALL, mistake_in_history
 from .mistake import Mistake, largest, most_left
 from .tables import mistake_in_table
-
-__all__ = ["Mistake", "mistakes_in"]
 
 
 @one_thread
@@ -40,19 +38,17 @@ def mistakes_in(
         for done, name in enumerate(judgement.findings):
             if progress is not None:
                 progress(name, done, len(judgement.findings))
-            seen = judgement.histories.get(name)
+            case, seen = CASES.get(name), judgement.histories.get(name)
             quantity, finding = next(iter(judgement.findings[name].items()))
             most = most_left(THRESHOLDS[quantity], finding)
             try:
                 one = _in_tags(name, submission, judgement)
-                if one is None and seen is None:
-                    one = _in_table(name, submission, most)
-                elif one is None and seen is not None:
+                if one is None and seen is not None:
                     run, true = seen.finest, seen.reference.history
-                    if seen.case.in_space:
-                        one = mistake_in_space(seen.case, run.time, run.q, true, most)
-                    else:
-                        one = mistake_in_history(seen.case, run.time, run.q, true, ramps, most)
+                    one = mistake_in_history(seen.case, run.time, run.q, true, ramps, most)
+                elif one is None and case is not None and case.asked is not Asked.HISTORY:
+                    truth = reference(case, submission.declaration.theory)
+                    one = mistake_in_table(case, submission.rows, truth, most)
             except (RuntimeError, ValueError):
                 continue  # no reference, which the judgement says
             if one is not None:
@@ -63,14 +59,6 @@ def mistakes_in(
                 off = largest(seen.differences[seen.finest]) > SMALL
                 ramps = () if off else ramps  # tried in vain
     return found
-
-
-def _in_table(name: str, submission: Submission, most: float) -> Mistake | None:
-    case = CASES.get(name)
-    if case is None or case.asked is Asked.HISTORY:
-        return None
-    truth = reference(case, submission.declaration.theory)
-    return mistake_in_table(case, submission.rows, truth, most)
 
 
 def _in_tags(name: str, submission: Submission, judgement: Judgement) -> Mistake | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, cast
 
 import numpy as np
@@ -38,50 +39,43 @@ UNITS = {
 
 @dataclass(frozen=True, kw_only=True)
 class _WrongRamp(SpeedChange, abstract=True):
-    """A ramp that is taken for Eq. 1's: same speed, same time, another way to it."""
+    """A ramp that is taken for Eq. 1's: same speed, same time, another way to it.
+
+    `way` is, over s = t/T, the angle over ωT, the rate over ω and the acceleration over ω/T.
+    """
 
     omega: float
     ramp_time: float
     start: float = 0.0
+    way: Callable[[Any], tuple[Any, Any, Any]]
 
     @property
     def shortest_wave(self) -> float:  # type: ignore[override]
         """Period of the acceleration during the ramp, T [s]."""
         return self.ramp_time
 
-
-@dataclass(frozen=True, kw_only=True)
-class LinearRamp(_WrongRamp):
-    """A rate that grows linearly, ωt/T: Eq. 1 without its sine."""
-
     def _within(self, t: Any, derivative: int) -> Any:
-        return self.omega / self.ramp_time * (0.5 * t**2, t, t < self.ramp_time)[derivative]
+        scale = self.omega * self.ramp_time ** (1 - derivative)
+        return scale * self.way(t / self.ramp_time)[derivative]
 
 
-@dataclass(frozen=True, kw_only=True)
-class CosineRamp(_WrongRamp):
-    """A rate that grows as half a cosine, (ω/2)(1 - cos(πt/T))."""
-
-    def _within(self, t: Any, derivative: int) -> Any:
-        k = np.pi / self.ramp_time
-        angle, rate = t - np.sin(k * t) / k, 2.0 * np.sin(0.5 * k * t) ** 2
-        return 0.5 * self.omega * (angle, rate, k * np.sin(k * t))[derivative]
+def _linear(s: Any) -> tuple[Any, Any, Any]:
+    return 0.5 * s**2, s, s < 1.0
 
 
-@dataclass(frozen=True, kw_only=True)
-class SmoothRamp(_WrongRamp):
-    """A rate that grows by the smoothstep, ω(3s² - 2s³) with s = t/T."""
-
-    def _within(self, t: Any, derivative: int) -> Any:
-        s, time = t / self.ramp_time, self.ramp_time
-        steps = time * (s**3 - 0.5 * s**4), s**2 * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / time
-        return self.omega * steps[derivative]
+def _half_cosine(s: Any) -> tuple[Any, Any, Any]:
+    sine = np.sin(np.pi * s)
+    return 0.5 * (s - sine / np.pi), np.sin(0.5 * np.pi * s) ** 2, 0.5 * np.pi * sine
 
 
-RAMPS: dict[str, type[_WrongRamp]] = {
-    "a rate that grows linearly, without the sine of Eq. 1": LinearRamp,
-    "a rate that grows as half a cosine": CosineRamp,
-    "a rate that grows by the smoothstep 3s² - 2s³": SmoothRamp,
+def _smoothstep(s: Any) -> tuple[Any, Any, Any]:
+    return s**3 - 0.5 * s**4, s**2 * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s)
+
+
+RAMPS: dict[str, Callable[..., _WrongRamp]] = {
+    "a rate that grows linearly, without the sine of Eq. 1": partial(_WrongRamp, way=_linear),
+    "a rate that grows as half a cosine": partial(_WrongRamp, way=_half_cosine),
+    "a rate that grows by the smoothstep 3s² - 2s³": partial(_WrongRamp, way=_smoothstep),
 }
 
 
@@ -126,19 +120,28 @@ def mistake_in_history(
 ) -> Mistake | None:
     """Return the mistake that explains the error of a history, if there is one.
 
-    Times [s] and q [m] are as handed in; `reference` gives q [m] at times within the case. `ramps`
-    are the wrong ones to try, keys of RAMPS; each takes a second or two. A mistake leaves `most` at
-    most, over max|q|.
+    Times [s] and q [m], in space lag, flap and twist, are as handed in; `reference` gives q at
+    times within the case. `ramps` are the wrong ones to try, keys of RAMPS; each takes a second or
+    two. A mistake leaves `most` at most, over max|q|.
     """
     every = max(1, time.size // _SAMPLES)
     time, q = time[::every], q[::every]
-    seen = _Seen(case=case, time=time, q=q, true=reference(time), reference=reference)
-    scale = largest(seen.true)
-    before = largest(q - seen.true) / scale
+    true = reference(time)
+    scale = np.abs(true).max(axis=0)
+    before = largest((q - true) / scale)
     if not before > SMALL:
         return None
-    tried = ((name, said, left / scale) for of in SUSPECTS for name, said, left in of(seen))
-    found = explaining(case.name, before, most, tried)
+    if case.in_space:
+        tried = (
+            (name, said, largest((q / factors - true) / scale))
+            for name, (said, factors) in _signs_of(case).items()
+        )
+        return explaining(case.name, before, most, tried)
+    seen = _Seen(case=case, time=time, q=q, true=true, reference=reference)
+    found = explaining(
+        case.name, before, most,
+        ((name, said, left / scale) for of in SUSPECTS for name, said, left in of(seen)),
+    )  # fmt: skip
     if found is not None or not case.is_spun_up:
         return found
     for name, said, left in _unit_of_speed(seen):
@@ -158,29 +161,13 @@ SIGNS = {
 """Factors of lag, flap and twist by which a tip in space may be off, and what is said of them."""
 
 
-def mistake_in_space(
-    case: Case,
-    time: FloatArray,
-    q: FloatArray,
-    reference: Callable[[FloatArray], FloatArray],
-    most: float = SMALL / 3.0,
-) -> Mistake | None:
-    """Return the mistake that explains the error of lag, flap and twist (samples, 3), or None."""
-    true = reference(time)
-    scale = np.abs(true).max(axis=0)
-    before = largest((q - true) / scale)
-    if not before > SMALL:
-        return None
-    # A blade that is twisted, or kicked, the other way moves as in a mirror.
-    turned = ("sign of the blade's twist", f"the blade's {TWISTED}")
-    kicked = ("sign of the kick", "the kick is the other way round: it goes up, along the axis")
-    name, said = kicked if case.kick else turned
-    mirror = {name: (said, (1.0, -1.0, -1.0))}
-    tried = [
-        (name, said, largest((q / factors - true) / scale))
-        for name, (said, factors) in {**SIGNS, **mirror}.items()
-    ]
-    return explaining(case.name, before, most, tried)
+def _signs_of(case: Case) -> dict[str, tuple[str, tuple[float, ...]]]:
+    """Return SIGNS, and the mirror in which a blade moves that is built or kicked wrongly."""
+    name, said = "sign of the blade's twist", f"the blade's {TWISTED}"
+    if case.kick:
+        name = "sign of the kick"
+        said = "the kick is the other way round: it goes up, along the axis"
+    return {**SIGNS, name: (said, (1.0, -1.0, -1.0))}
 
 
 def _factors(seen: _Seen) -> _Suspects:

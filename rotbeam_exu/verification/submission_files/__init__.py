@@ -19,8 +19,16 @@ from ..cases import CASES, Asked, Case
 from ..history import FREE_FOR, free_frequency
 from ..submission import Row, Run, Submission
 from . import entry, runs
-from .content import OUTSIDE, below, content_of
-from .faults import Faults, MalformedSubmissionError, near, printable
+from .faults import (
+    OUTSIDE,
+    Faults,
+    MalformedSubmissionError,
+    below,
+    content_of,
+    files_in,
+    near,
+    printable,
+)
 from .tables import (
     FAILURE,
     LEAST_DIGITS,
@@ -238,12 +246,8 @@ def _rounded(row: Row, most: Sequence[int]) -> Row:
 
 def _vibrations(root: Path) -> list[tuple[str, Case]]:
     """Return the files of free vibrations, each in place of a row of a table, and their cases."""
-    return [
-        (f"{name}/{printable(path.name)}", case)
-        for name, case in CASES.items()
-        if case.quantities == ("linear frequency",) and below(root, name)
-        for path in sorted((root / name).glob("*.csv"))
-    ]
+    known = [case for case in CASES.values() if case.quantities == ("linear frequency",)]
+    return [(file, case) for case in known for file in files_in(root, case.name)]
 
 
 def _vibration(root: Path, file: str, case: Case, rows: Sequence[Row], faults: Faults) -> list[Row]:

@@ -15,8 +15,7 @@ from analytic.input_checks import finite_number, positive
 
 from ..cases import VERSION
 from ..submission import Declaration
-from .content import LARGEST_TOML, text_of
-from .faults import Faults, near, shown
+from .faults import LARGEST_TOML, Faults, near, shown, text_of
 
 FILE = "entry.toml"
 TAGS = ("shear", "rotary-inertia", "inextensible")

@@ -1,12 +1,18 @@
-"""Faults of a submission's files: all at once, each with its place and a remedy."""
+"""Files of a submission, and their faults: all at once, each with its place and a remedy.
+
+Who judges the folders of strangers has files of his own, to which links lead, and memory, which a
+pipe or a device fills. All files are read here: regular ones below the folder, up to a limit.
+"""
 
 from __future__ import annotations
 
 import difflib
+import os
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from ..submission import Submission
 
@@ -20,6 +26,15 @@ _MOST_FILES = 10
 
 _SHOWN = 40
 """Letters of a faulty cell that a sentence repeats."""
+
+
+LARGEST = 100_000_000
+"""Bytes of a file that is read; a history of a million samples has less."""
+
+LARGEST_TOML = 32_000
+"""Bytes of entry.toml."""
+
+OUTSIDE = "is a link that leads out of the folder: put what it names in its place"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,3 +135,63 @@ def printable(name: str) -> str:
     """Return the name of a file, bytes that are no letters and the like replaced."""
     text = name.encode("utf-8", "replace").decode()
     return text if text.isprintable() else ascii(text)[1:-1]
+
+
+def below(folder: Path, file: str) -> Path | None:
+    """Return the place below the folder to which links lead; None if they lead out."""
+    root, real = os.path.realpath(folder), Path(os.path.realpath(folder / file))
+    return real.relative_to(root) if real.is_relative_to(root) else None
+
+
+def files_in(folder: Path, name: str) -> list[str]:
+    """Return the CSV files of a folder below the folder, as S1/m032_h1e-3.csv."""
+    paths = sorted((folder / name).glob("*.csv")) if below(folder, name) else []
+    return [f"{name}/{printable(path.name)}" for path in paths]
+
+
+def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
+    """Return the bytes of a regular file below a folder.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or too large; the sentence goes on after the file's name.
+    OSError
+        If it cannot be read.
+    """
+    place = below(folder, file)
+    if place is None:
+        raise ValueError(OUTSIDE)
+    path = folder / place
+    if path.is_dir():
+        raise ValueError("is a folder: put a file in its place")
+    if path.exists() and not path.is_file():
+        raise ValueError("is no regular file but a pipe or a device: put a file in its place")
+    with path.open("rb") as opened:
+        content = opened.read(largest + 1)
+    if len(content) > largest:
+        raise ValueError(
+            f"has more than {largest:,} bytes: hand in what the kit asks for, and sample less often"
+        )
+    return content
+
+
+def text_of(folder: Path, file: str, faults: Faults, largest: int = LARGEST) -> str | None:
+    """Return the text of a file, its lines ended by LF; None, and why, where it is no text."""
+    try:
+        # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
+        text = content_of(folder, file, largest).decode("utf-8-sig")
+        if "\0" in text:
+            raise ValueError("is not text (it holds zero bytes): write it as UTF-8")
+    except UnicodeDecodeError as error:
+        said = f"is not text (byte {error.start} is no UTF-8): write it as UTF-8"
+    except FileNotFoundError:
+        said = "there is no such file"
+    except OSError as error:
+        said = f"cannot be read: {error.strerror or error}"
+    except ValueError as error:
+        said = str(error)
+    else:
+        return text.replace("\r\n", "\n").replace("\r", "\n")
+    faults.add(file, said)
+    return None

@@ -6,7 +6,6 @@ import math
 import os
 import re
 from collections.abc import Collection, Iterator
-from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +15,7 @@ from analytic.arrays import FloatArray
 
 from ..cases import CASES, TIP, Asked, Case
 from ..submission import Run
-from .content import below
-from .faults import Faults, printable, several, shown
+from .faults import Faults, files_in, several, shown
 from .tables import (
     DIGITS,
     FAILURE,
@@ -85,20 +83,14 @@ COLUMNS = (
 
 def file_of(run: Run) -> str:
     """Return the name of a history's file below the folder, as S1/m032_h1e-3.csv."""
-    _, digits, exponent = Decimal(repr(run.refinement)).normalize().as_tuple()
-    first, *rest = map(str, digits)
-    mantissa, power = f"{first}{'.' if rest else ''}{''.join(rest)}", int(exponent) + len(rest)
-    return f"{run.case}/m{run.elements:03d}_{'t' if run.is_adaptive else 'h'}{mantissa}e{power}.csv"
+    size = np.format_float_scientific(run.refinement, trim="-", exp_digits=1).replace("+", "")
+    return f"{run.case}/m{run.elements:03d}_{'t' if run.is_adaptive else 'h'}{size}.csv"
 
 
 def runs_of(root: Path, faults: Faults, only: Collection[str] = ()) -> tuple[Run, ...]:
     """Return the runs of some or all cases that runs.csv lists; failed runs have no history."""
-    there = [
-        f"{name}/{printable(path.name)}"
-        for name, case in CASES.items()
-        if case.asked is Asked.HISTORY and below(root, name) and (root / name).is_dir()
-        for path in sorted((root / name).glob("*.csv"))
-    ]
+    histories = [name for name, case in CASES.items() if case.asked is Asked.HISTORY]
+    there = [file for name in histories for file in files_in(root, name)]
     if not there and not os.path.lexists(root / FILE):
         return ()
     found, listed = [], list(_listed(root, faults))

@@ -18,8 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .content import text_of
-from .faults import Faults, near, shown
+from .faults import Faults, near, shown, text_of
 
 MOST_LINES = 2_000_000
 LONGEST_LINE = 10_000

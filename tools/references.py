@@ -1,4 +1,4 @@
-"""Make the shipped reference data anew: `python -m rotbeam_exu.verification.regenerate`.
+"""Make the shipped reference data anew: part of `make references`.
 
 Takes eight minutes, half of it the kicked tube. Look at what moved, and by how much against the
 bounds, before committing it.
@@ -14,18 +14,18 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 from rich.progress import track
 
-from analytic import AmplitudeNotReachedError, AnyBlade, periodic_orbits
+from analytic import AmplitudeNotReachedError, AnyBlade, Beam, SpinUp, periodic_orbits
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.lazily import interpolate
-from analytic.theory import Theory
-
-from ..lazily import xr
-from . import shipped
-from .cases import VERSION, Case
-from .references import Sampled, row_of, sampled_history
+from analytic.theory import BERNOULLI_EULER, Theory
+from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
+from rotbeam_exu.verification import shipped
+from rotbeam_exu.verification.cases import CASES, VERSION, Asked, Case, spin_up_case
+from rotbeam_exu.verification.references import Sampled, row_of, sampled_history
 
 SPACING = 5e-3
 """Time between the shipped samples [s]."""
@@ -37,14 +37,54 @@ _WORST = 1e-8  # relative error of ω_NL between the points of a backbone
 _QUANTUM = 1e-12  # of max|q|, to which samples are rounded so that they compress
 
 
+def shipped_histories() -> dict[str, tuple[Case, Theory]]:
+    """Return whose histories are shipped: the paper's spin-ups, and the benchmark's cases."""
+    spin_ups = [SpinUp(omega=omega, ramp_time=time) for omega in SPEEDS for time in RAMP_TIMES]
+    found = [
+        spin_up_case(Beam.reference(), one, shipped.DURATION, f"{one.omega:g}-{one.ramp_time:g}")
+        for one in spin_ups
+    ]
+    known = {shipped.key(case, BERNOULLI_EULER) for case in found}
+    own = [
+        one
+        for one in _by_theory()
+        if one[0].asked is Asked.HISTORY and shipped.key(*one) not in known
+    ]
+    return {_named(*one): one for one in [*((case, BERNOULLI_EULER) for case in found), *own]}
+
+
+def shipped_tables() -> dict[str, tuple[Case, Theory]]:
+    """Return whose frequencies and steady states are shipped."""
+    asked = Asked.FREQUENCIES, Asked.STEADY
+    return {_named(*one): one for one in _by_theory() if one[0].asked in asked}
+
+
+def _by_theory() -> list[tuple[Case, Theory]]:
+    return [(case, theory) for case in CASES.values() for theory in case.theories]
+
+
+def _named(case: Case, theory: Theory) -> str:
+    number = case.theories.index(theory)
+    return f"{case.name} {number}" if number else case.name
+
+
+def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
+    """Return the blades and speeds [rad/s] whose backbones are shipped, by the name of a case."""
+    return {
+        case.name: (case.blade, case.rotation.omega)
+        for case in CASES.values()
+        if case.oscillates and case.is_spun_up
+    }
+
+
 def dataset(commit: str) -> xr.Dataset:
     """Compute all shipped data, for the commit that makes them."""
-    cases = shipped.shipped_histories()
+    cases = shipped_histories()
     found = {name: history(*cases[name]) for name in track(list(cases), "histories")}
     columns = [(name, k) for name, (case, _) in cases.items() for k in range(len(case.columns))]
-    tables = {name: table(*one) for name, one in shipped.shipped_tables().items()}
-    of_tables = shipped.shipped_tables().values()
-    places = shipped.shipped_backbones()
+    tables = {name: table(*one) for name, one in shipped_tables().items()}
+    of_tables = shipped_tables().values()
+    places = shipped_backbones()
     curves = {name: backbone(*places[name]) for name in track(list(places), "backbones")}
     errors = [error for *_, error in curves.values()]
     first = next(iter(found.values()))
@@ -81,7 +121,7 @@ def dataset(commit: str) -> xr.Dataset:
         },
         {
             "history": [_component(cases[name][0], name, k) for name, k in columns],
-            "time": first.time, "backbone": list(curves), "amplitude": shipped.amplitudes(),
+            "time": first.time, "backbone": list(curves), "amplitude": amplitudes(),
             "table": list(tables), "place": np.arange(widest[0]), "number": np.arange(widest[1]),
         },
         {
@@ -122,6 +162,15 @@ def history(case: Case, theory: Theory) -> Sampled:
     return Sampled(time=found.time, q=np.round(found.q / quantum) * quantum, error=found.error)
 
 
+def amplitudes() -> FloatArray:
+    """Return the peak |q|/L of shipped backbones: 0, and closer where resonances bend them.
+
+    Each ends where a resonance bends it too sharply; the amplitudes of case B are among them.
+    """
+    parts = (0.0, 0.4, 0.02), (0.4, 0.5, 0.005), (0.5, 0.6, 0.0025), (0.6, 0.885, 0.005)
+    return np.concatenate([low + np.arange(round((up - low) / d)) * d for low, up, d in parts])
+
+
 def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
     """Compute ω_n, the curvature at `amplitudes`, and the relative error of ω_NL.
 
@@ -129,7 +178,7 @@ def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
     again. Beyond the amplitude where the spline's error exceeds _WORST, or orbits are not reached,
     the curvature is NaN.
     """
-    at = shipped.amplitudes()
+    at = amplitudes()
     halfway = 0.5 * (at[2:] + at[1:-1])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RotbeamWarning)  # a resonance that is known to be near
@@ -172,13 +221,8 @@ def write(data: xr.Dataset) -> None:
     Path(shipped.__file__).write_text(code, encoding="utf-8")
 
 
-def main() -> None:
-    """Compute and write all data; their commit is told dirty if something is not in it."""
-    root = Path(__file__).parents[2]
-    described = ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=12"]
-    commit = subprocess.run(described, capture_output=True, text=True, check=True).stdout.strip()
-    write(dataset(commit))
-
-
 if __name__ == "__main__":
-    main()
+    # The commit is told dirty if something is not in it.
+    described = ["git", "-C", str(Path(__file__).parent), "describe", "--always", "--dirty"]
+    commit = subprocess.run([*described, "--abbrev=12"], capture_output=True, text=True, check=True)
+    write(dataset(commit.stdout.strip()))

@@ -1,0 +1,232 @@
+"""Parts of a blade, as values in SI units: its line in space, point masses on it, and damping."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from .arrays import Profile
+from .description import Described
+from .input_checks import checked_profile, finite_number, not_negative, positive, whole_number
+from .profiles import in_units
+
+Offset = tuple[float, float]
+"""(c2, c3): along the chord, to the leading edge, and along the thickness, of the section."""
+
+
+def checked_offset(name: str, offset: Any) -> Offset:
+    """Return an offset as two plain numbers [m]."""
+    try:
+        c2, c3 = offset
+    except (TypeError, ValueError):
+        raise TypeError(
+            f"{name} must be a pair (c2, c3) [m], along chord and thickness, got {offset!r}"
+        ) from None
+    return finite_number(f"{name}[0]", c2, "m"), finite_number(f"{name}[1]", c3, "m")
+
+
+def scaled(offset: Offset, length: float) -> Offset:
+    """Return an offset over a length."""
+    return offset[0] / length, offset[1] / length
+
+
+def _checked_kink(kink: Any) -> tuple[float, float, float]:
+    try:
+        x, about_chord, about_thickness = kink
+    except (TypeError, ValueError):
+        raise TypeError(
+            f"a kink must be its place [m] and two angles [rad], got {kink!r}: as (5.0, 0.0, 0.3)"
+        ) from None
+    return (
+        positive("place of a kink", x, "m"),
+        finite_number("angle of a kink", about_chord, "rad"),
+        finite_number("angle of a kink", about_thickness, "rad"),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Line(Described):
+    """The unloaded line of a blade, through its shear centers, and the sections along it.
+
+    Parameters
+    ----------
+    twist : Profile
+        θ [rad], over the setting angle, from the chord towards the thickness.
+    precone : float
+        β [rad], by which the clamp points out of the plane of rotation.
+    prebend, sweep : Profile
+        Curvatures of the unloaded line [1/m], about the chord and about the thickness.
+    mass_offset, tension_offset : tuple
+        (c2, c3) of the centers of mass and of tension [m].
+    kinks : tuple
+        Of each kink of the line its place [m], and its angles about the chord and the thickness
+        [rad], as prebend and sweep.
+
+    Examples
+    --------
+    >>> from analytic import Beam
+    >>> blade = Beam.reference().with_section_out_of_plane(0.0625, 0.08).with_twist(0.5)
+    >>> blade.with_precone(0.04).line.precone
+    0.04
+    """
+
+    twist: Profile = 0.0
+    precone: float = 0.0
+    prebend: Profile = 0.0
+    sweep: Profile = 0.0
+    mass_offset: Offset = (0.0, 0.0)
+    tension_offset: Offset = (0.0, 0.0)
+    kinks: tuple[tuple[float, float, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        self._keep(
+            twist=checked_profile("twist", self.twist, "rad"),
+            prebend=checked_profile("prebend", self.prebend, "1/m"),
+            sweep=checked_profile("sweep", self.sweep, "1/m"),
+            precone=finite_number("precone", self.precone, "rad"),
+            mass_offset=checked_offset("mass_offset", self.mass_offset),
+            tension_offset=checked_offset("tension_offset", self.tension_offset),
+            kinks=tuple(map(_checked_kink, self.kinks)),
+        )
+
+    def in_units(self, length: float) -> Line:
+        """Return the same in units of length [m]."""
+        return Line(
+            twist=in_units(self.twist, length, 1.0),
+            precone=self.precone,
+            prebend=in_units(self.prebend, length, 1.0 / length),
+            sweep=in_units(self.sweep, length, 1.0 / length),
+            mass_offset=scaled(self.mass_offset, length),
+            tension_offset=scaled(self.tension_offset, length),
+            kinks=tuple((x / length, a, b) for x, a, b in self.kinks),
+        )
+
+
+STRAIGHT = Line()
+"""The line of a straight blade without twist or precone, through all its centers."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointMass(Described):
+    """A mass on the blade's axis.
+
+    Parameters
+    ----------
+    position : float
+        x from the clamp [m].
+    mass : float
+        [kg].
+    inertia : float
+        Against rotation in the plane of bending [kg m²].
+    offset : tuple
+        (c2, c3) [m] from the blade's line, along chord and thickness of the section.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Blade, PointMass
+    >>> beam = Beam.reference()
+    >>> mass = PointMass(position=4.0, mass=0.5)
+    >>> blade = Blade(length=beam.length, section=beam.blade.section, point_masses=(mass,))
+    >>> print(f"{beam.omega_0:.4f} rad/s, with the mass {blade.frequencies_at_rest[0]:.4f} rad/s")
+    2.9092 rad/s, with the mass 2.7190 rad/s
+    """
+
+    position: float
+    mass: float
+    inertia: float = 0.0
+    offset: Offset = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        at = not_negative(
+            "position", self.position, "m", "it is measured from the clamp to the tip"
+        )
+        if at == 0.0:
+            raise ValueError(
+                "a point mass at the clamp, position 0 m, does not move with the blade: leave it "
+                "out, it belongs to the hub"
+            )
+        self._keep(
+            position=at,
+            mass=not_negative("mass", self.mass, "kg"),
+            inertia=not_negative("inertia", self.inertia, "kg m^2"),
+            offset=checked_offset("offset", self.offset),
+        )
+
+    def in_units(self, length: float, mass: float) -> PointMass:
+        """Return the same in units of length [m] and mass [kg]."""
+        return PointMass(
+            position=self.position / length,
+            mass=self.mass / mass,
+            inertia=self.inertia / (mass * length**2),
+            offset=scaled(self.offset, length),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Damping(Described):
+    """Viscous damping of a blade.
+
+    The bending moment is EI(κ + η_b κ̇), the axial force EA(e + η_a ė). External damping takes d ṙ
+    per length, with the velocity relative to the turning frame: it does not brake steady rotation
+    as drag would, and point masses have none.
+
+    Parameters
+    ----------
+    bending : float
+        η_b [s].
+    axial : float
+        η_a [s].
+    external : float
+        d [kg/(m s)]; c times the mass per length damps a uniform blade by its mass.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Damping, damping_ratios
+    >>> blade = Beam.reference().with_damping(Damping(bending=1e-3))
+    >>> print(damping_ratios(blade, omega=6.0).round(5))
+    [0.00127 0.00723 0.02303]
+    """
+
+    bending: float = 0.0
+    axial: float = 0.0
+    external: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, unit in (("bending", "s"), ("axial", "s"), ("external", "kg/(m s)")):
+            remedy = "damping takes energy, it gives none"
+            self._keep(**{name: not_negative(name, getattr(self, name), unit, remedy)})
+
+    @classmethod
+    def from_ratio(cls, blade: Any, mode: int = 1, ratio: float = 0.01) -> Damping:
+        """Return the bending damping that gives one mode at rest a damping ratio.
+
+        η_b = 2ζ/ω_j; for rotation, where the centrifugal stiffness takes no part, see
+        `damping_ratios`.
+
+        Parameters
+        ----------
+        blade : Beam or Blade
+        mode : int
+            j, from 1 to 12.
+        ratio : float
+            ζ, of the critical damping.
+        """
+        mode = whole_number("mode", mode)
+        frequencies = blade.frequencies_at_rest
+        if mode > frequencies.size // 2:
+            raise ValueError(f"mode must be at most {frequencies.size // 2}, got {mode}")
+        return cls(bending=2.0 * not_negative("ratio", ratio) / float(frequencies[mode - 1]))
+
+    def in_units(self, length: float, mass: float, time: float) -> Damping:
+        """Return the same in units of length [m], mass [kg] and time [s]."""
+        return Damping(
+            bending=self.bending / time,
+            axial=self.axial / time,
+            external=self.external * length * time / mass,
+        )
+
+    def __bool__(self) -> bool:
+        return any((self.bending, self.axial, self.external))
+
+
+UNDAMPED = Damping()

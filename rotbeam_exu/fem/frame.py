@@ -1,5 +1,0 @@
-"""The coordinates of a model."""
-
-from typing import Literal
-
-Frame = Literal["inertial", "rotating"]

@@ -1,0 +1,84 @@
+"""Typeset the kit's problem statement, PROBLEM.pdf, by typst: part of `make references`."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from analytic import Beam
+from rotbeam_exu.verification.cases import CASES, VERSION, Case
+from rotbeam_exu.verification.judgement import THRESHOLDS
+from rotbeam_exu.verification.kit import COLUMNS, STATIC, row_of
+from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.submission_files.runs import FARTHEST
+from rotbeam_exu.verification.submission_files.tables import DIGITS
+
+SOURCE, PDF = Path(__file__).with_name("problem.typ"), STATIC / "PROBLEM.pdf"
+DIGEST = Path(__file__).with_name("PROBLEM.sha256")
+"""SHA-256 of the source and the numbers that the PDF was made from."""
+
+
+def problem_numbers() -> str:
+    """Return the numbers for the problem's source as JSON: cases, thresholds, S1."""
+    case, beam = CASES["S1"], Beam.reference()
+    material = beam.youngs_modulus, beam.density, beam.area, beam.second_moment
+    times = np.linspace(0.0, case.duration, 601)
+    document = {
+        "version": VERSION,
+        "cases": [row_of(case) | {"besides": _besides(case)} for case in CASES.values()],
+        "material": dict(zip(("E", "rho", "A", "I"), material, strict=True)),
+        "thresholds": {name: f"{value:g}" for name, value in THRESHOLDS.items()},
+        "farthest": FARTHEST,
+        "digits": DIGITS,
+        "history": np.round(reference(case).history(times) / case.blade.length, 4).tolist(),
+        "space": _looked_at(),
+    }
+    return json.dumps(document)
+
+
+def _looked_at() -> list[dict[str, Any]]:
+    """Return numbers of the cases in space, to look at before the first judgement."""
+    found: list[dict[str, Any]] = []
+    for case in CASES.values():
+        if not case.in_space:
+            continue
+        truth = reference(case)
+        at = case.speeds[-1:] or (5.0, 15.0)
+        at_text = "{:g} rad/s" if case.speeds else "$t$ = {:g} s"
+        rows = [truth.row(x) if case.speeds else truth.history(x) for x in at]
+        found += [
+            {"id": case.name, "at": at_text.format(x), "row": [f"{v:.4g}" for v in row.tolist()]}
+            for x, row in zip(at, rows, strict=True)
+        ]
+    return found
+
+
+def _besides(case: Case) -> list[str]:
+    """Return the problem's text on a case beside its beam and motion, in Typst's markup."""
+    row = row_of(case)
+    listed = {"$omega$: {} rad/s": case.speeds, "$a$: {}": case.amplitudes}
+    said = [text.format(", ".join(f"{x:g}" for x in of)) for text, of in listed.items() if of]
+    told = {one.name: one for one in COLUMNS.values() if one.besides and row[one.name]}
+    said += [one.besides.format(f"{row[name]:.8g}") for name, one in told.items()]
+    return [*said, "starts on an orbit"] if case.motion and not case.is_spun_up else said
+
+
+def problem_digest() -> str:
+    """Return the SHA-256 of the present source and numbers of the problem."""
+    return hashlib.sha256(SOURCE.read_bytes() + problem_numbers().encode()).hexdigest()
+
+
+def typeset(**options: Any) -> Any:
+    """Return the problem as the bytes of a PDF, or what `options` of typst.compile ask for."""
+    import typst
+
+    return typst.compile(str(SOURCE), sys_inputs={"data": problem_numbers()}, **options)
+
+
+if __name__ == "__main__":
+    PDF.write_bytes(typeset())
+    DIGEST.write_text(problem_digest() + "\n", encoding="utf-8")
