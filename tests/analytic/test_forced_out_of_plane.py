@@ -25,7 +25,7 @@ THIN = Theory(trapeze=False)  # without inertia of the sections, which L2 leaves
 @pytest.mark.parametrize(
     ("blade", "omega", "load", "frequencies"),
     [
-        (RIGID, 2.0, TipForce(amplitude=0.5), [3.4, 3.42]),
+        (RIGID, 2.0, TipForce(amplitude=0.5), [3.4, 3.5]),
         # Slower than the blade:
         pytest.param(RIGID, 2.0, TipForce(amplitude=1.0), [0.75, 0.8], marks=pytest.mark.slow),
         pytest.param(RIGID, 2.0, SpeedRipple(amplitude=0.2), [3.4, 3.5], marks=pytest.mark.slow),
