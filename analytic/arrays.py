@@ -1,4 +1,4 @@
-"""The types of arrays, and parts of long ones."""
+"""The types of arrays and of profiles, and parts of long arrays."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+
+Profile = float | tuple[float, ...] | tuple[tuple[float, float], ...]
+"""A number, coefficients of 1, x/L, (x/L)² ..., or stations (x [m], value), linear in between."""
 
 _AT_ONCE = 100  # samples, in space of some megabytes each
 

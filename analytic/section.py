@@ -12,10 +12,10 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, Profile
 from .description import Described
-from .input_checks import not_negative, positive, warn_if_giga
-from .profiles import Profile, checked_profile, evaluated, in_units, stations, times
+from .input_checks import checked_profile, not_negative, positive, warn_if_giga
+from .profiles import evaluated, in_units, stations, times
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,9 +13,8 @@ from typing import Any, ClassVar, Never
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import FloatArray
+from .arrays import FloatArray, Profile
 from .input_checks import finite_array
-from .profiles import Profile
 from .section import OutOfPlane, Section
 
 _EVEN = 1e-6  # of a matrix whose entries a table rounds

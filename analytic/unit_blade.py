@@ -9,8 +9,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from .arrays import FloatArray
-from .profiles import Profile, evaluated, stations
+from .arrays import FloatArray, Profile
+from .profiles import evaluated, stations
 from .quadrature import Grid
 
 _SAME = 1e-9  # stations and masses that are no farther apart

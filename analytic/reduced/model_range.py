@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..beam import AnyBlade, Beam, require_planar, require_undamped, warn_if_rpm
 from ..input_checks import rotation_speed
@@ -62,13 +62,11 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     >>> round(model.omega_n, 6), round(model.lambda_omega, 5)
     (3.730549, 0.02355)
     """
-    omega = rotation_speed(omega)
-    if isinstance(variant, str):
-        variant = variant_named(variant)
+    omega, variant = rotation_speed(omega), variant_named(variant)
     require_undamped(beam, "the reduced models have no damping")
     model = model_at(beam, omega, variant)
     warn_if_rpm(beam, omega)
-    warn_beyond_range(beam, omega, variant, model.w_n, model.lambda_omega)
+    warn_beyond_range(model)
     return model
 
 
@@ -109,7 +107,7 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     2.9730 rad/s
     """
     require_planar(beam)
-    setting = variant_named(variant) if isinstance(variant, str) else variant
+    setting = variant_named(variant)
 
     def lambda_omega(speed_ratio: float) -> float:
         return model_at(beam, speed_ratio * beam.omega_0, setting).lambda_omega
@@ -124,14 +122,9 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     return float(ratio) * beam.omega_0
 
 
-def warn_beyond_range(
-    beam: AnyBlade,
-    omega: float,
-    variant: Variant,
-    w_n: float,
-    lambda_omega: float,
-) -> None:
-    """Warn where modes or extension that `variant` leaves out matter, or modes are resonant."""
+def warn_beyond_range(model: ReducedModel) -> None:
+    """Warn where modes or extension that a model leaves out matter, or modes are resonant."""
+    beam, omega, variant = model.beam, model.omega, model.variant
     scale = beam.frequency_scale
     w_bar = omega / scale
     if omega >= beam.burst_speed:
@@ -141,9 +134,9 @@ def warn_beyond_range(
             f"about a steady state that the beam does not have; rotate slower"
         )
     elif variant.coriolis:
-        _warn_if_extended(beam, w_bar, lambda_omega)
+        _warn_if_extended(beam, w_bar, model.lambda_omega)
         others = blade_oscillator(beam.unit, w_bar, True).others
-        warn_if_resonant(w_n * scale, scale * np.array(others))
+        warn_if_resonant(model.omega_n, [scale * other for other in others])
     elif beam.unit == UNIFORM and omega > _PAPER_SPEED_RATIO * beam.omega_0:
         # The rotating beam's first frequency is never below ω0, so it is needed only here.
         mode = blade_oscillator(UNIFORM, w_bar, False)
@@ -172,12 +165,12 @@ def _warn_if_extended(beam: AnyBlade, w_bar: float, lambda_omega: float) -> None
         )
 
 
-def warn_if_resonant(omega_n: float, others: ArrayLike) -> None:
+def warn_if_resonant(omega_n: float, others: Sequence[float]) -> None:
     """Warn where 2ω_n comes within 10 % of one of the `others` [rad/s]: FrM divides by the gap.
 
     A uniform cantilever never gets there: its ω_2 stays above 3 times 2ω_n at any rotation speed.
     """
-    for other in np.atleast_1d(np.asarray(others, dtype=np.float64)):
+    for other in others:
         gap = other / (2.0 * omega_n) - 1.0
         if abs(gap) < _RESONANCE_BAND:
             warn(

@@ -164,15 +164,13 @@ def rotating_frequency(w_bar: float, degree: int) -> float:
     )
 
 
-def rotating_mode(w_bar: float, degree: int | None = None) -> RotatingMode:
+def rotating_mode(w_bar: float) -> RotatingMode:
     """Return the first rotating mode, Eq. 87, at the degree at which the series has converged.
-
-    Another `degree` shows the effect of the paper's.
 
     The paper stops at degree 36, which at 8 rad/s is 2.1e-4 rad/s off. Here terms are added until
     the last ones no longer change the tip's shear force, the slowest quantity to converge.
     """
-    degree = degree or converged_degree(w_bar)
+    degree = converged_degree(w_bar)
     w_n = rotating_frequency(w_bar, degree)
     v_2, v_3 = (frobenius_series(r, w_bar, w_n, degree) for r in (2, 3))
     (moment_2, _), (moment_3, _) = _tip(v_2), _tip(v_3)

@@ -109,8 +109,10 @@ VARIANTS: dict[str, Variant] = {
 }
 
 
-def variant_named(name: str) -> Variant:
-    """Return the variant of that name, refusing others with a list of them."""
+def variant_named(name: str | Variant) -> Variant:
+    """Return a variant, or that of the name, refusing others with a list of them."""
+    if isinstance(name, Variant):
+        return name
     if name not in VARIANTS:
         raise ValueError(f"variant must be one of {', '.join(VARIANTS)}, got {name!r}")
     return VARIANTS[name]

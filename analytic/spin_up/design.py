@@ -48,7 +48,6 @@ class _Task:
     omega: float
     duration: float
     count: int
-    highest: float
     steepest: float
     largest: float
     robust: int
@@ -58,6 +57,11 @@ class _Task:
         """The k of the unknowns."""
         equations = self.count * (1 + self.robust)
         return np.arange(2.0, equations + 2.0 * _MORE_WAVES + 1.0)
+
+    @property
+    def highest(self) -> float:
+        """The higher of both speeds, which is not exceeded on the way [rad/s]."""
+        return max(self.start, self.omega)
 
     @property
     def eq_1(self) -> FloatArray:
@@ -142,7 +146,6 @@ def design_ramp(
     modes: int = 2,
     *,
     start: float = 0.0,
-    speed_limit: float | None = None,
     acceleration_limit: float | None = None,
     robust: int = 0,
     largest: float | None = None,
@@ -167,10 +170,7 @@ def design_ramp(
     modes : int
         Number of modes left at rest.
     start : float
-        Speed before the ramp [rad/s].
-    speed_limit : float, optional
-        Highest speed on the way [rad/s]; the higher of `start` and `omega` if not given. The
-        lowest is zero.
+        Speed before the ramp [rad/s]; on the way it is between zero and the higher of both.
     acceleration_limit : float, optional
         Largest |θ̈| [rad/s²]; none if not given. That of Eq. 1 is 2(ω - ω_start)/T.
     robust : int
@@ -196,15 +196,8 @@ def design_ramp(
     omega, start = rotation_speed(omega), rotation_speed(start, "start")
     duration = positive("duration", duration, "s")
     modes = whole_number("modes", modes, most=_MOST_MODES)
-    higher = max(omega, start)
     if omega == start:
         raise ValueError(f"omega and start are both {omega:g} rad/s: there is nothing to change")
-    highest = higher if speed_limit is None else positive("speed_limit", speed_limit, "rad/s")
-    if highest < higher:
-        raise ValueError(
-            f"speed_limit = {highest:g} rad/s is below the {higher:g} rad/s at one end of the "
-            f"ramp: take that at least"
-        )
     robust = whole_number("robust", robust, least=0, most=2)
     bound = math.inf if largest is None else peak_deflection("largest", largest)
     steepest = math.inf
@@ -216,11 +209,11 @@ def design_ramp(
                 f"{abs(omega - start) / steepest:.4g} s at least from {start:g} to {omega:g} "
                 f"rad/s, and the duration is {duration:g} s: take a longer one"
             )
-    widest = FourierRamp(start=highest, omega=omega, ramp_time=duration)
+    widest = FourierRamp(start=max(start, omega), omega=omega, ramp_time=duration)
     others = [beam.in_units(1.0, 1.0, 1.0 + off) for off in (-_OFF, _OFF) if robust]
     task = _Task(
         blades=tuple((blade, modes_for(blade, widest, modes)) for blade in (beam, *others)),
-        start=start, omega=omega, duration=duration, count=modes, highest=highest,
+        start=start, omega=omega, duration=duration, count=modes,
         steepest=steepest, largest=bound, robust=robust,
     )  # fmt: skip
     return _corrected(task)

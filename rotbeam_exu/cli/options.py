@@ -19,7 +19,7 @@ from analytic.description import kinds_of
 from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
-from ..runs.attributes import Frame
+from ..fem.lazily import Frame
 from .endings import telling_what_is_kept
 from .motion import ChosenMotion
 from .output import counter
@@ -84,9 +84,9 @@ def _spelled(text: str, known: Iterable[str]) -> str:
 
 def element_names() -> tuple[str, ...]:
     """Return the names of the formulations."""
-    from ..fem.elements import ALIASES, FORMULATIONS
+    from ..fem.elements import FORMULATIONS
 
-    return *FORMULATIONS, *ALIASES
+    return tuple(FORMULATIONS)
 
 
 def element_of(name: str, options: Mapping[str, object] | None = None) -> Formulation:
@@ -121,7 +121,7 @@ class Discretization:
     Parameters
     ----------
     element
-        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures; in
+        Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in
         space space_cable, space_exact; or one's own, as module:Class.
     option
         Option of the formulation as name=value; repeat it for several.

@@ -41,7 +41,7 @@ def ramp(
     finite_element_points
         Ramp times of runs in Exudyn, evenly spaced; 0 for none.
     element
-        Beam formulation: cable (unless given), exact or reissner, ancf3, linear, substructures; in
+        Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in
         space space_cable, space_exact.
     elements
         Number of elements, 16 unless given.

@@ -35,7 +35,7 @@ def verify(*, element: list[Element] | None = None, config: Config = None) -> No
     Parameters
     ----------
     element
-        A formulation: cable, exact or reissner, ancf3, linear, substructures; in space
+        A formulation: cable, exact, ancf3, linear, substructures; in space
         space_cable, space_exact; or one's own, as module:Class. Repeat it for several; by default
         those in the plane.
 

@@ -47,9 +47,8 @@ def columns(
     # The lines of the nodes, by the axes of the clamp.
     frame = model.line_frame(beam)
     axis, moving = (e[..., : model.dimensions] @ frame for e in (coordinates, relative))
-    x, y = coordinates[:, -1, 0], coordinates[:, -1, 1]
     # Out of the plane of rotation the deflection has a share that is not seen there.
-    seen = (x + 1j * setting * y) * np.exp(1j * angle)
+    seen = coordinates[:, -1, :2] @ [1.0, 1j * setting] * np.exp(1j * angle)
     reference = trajectory.reference[0]
     off = coordinates[:, 0] - reference
     strain = np.abs(model.axial_strain(beam, coordinates)).max(axis=1)
@@ -83,9 +82,12 @@ def columns(
         torque, unit, label = values["clamp_torque"]
         values["clamp_torque"] = setting * torque + across, unit, label
     if case.exchanges_energy:
-        power = _power(built, t, angle, coordinates, relative) - rate_dot * momentum
-        supplied = _integral(t, power)
-        values["supplied_energy"] = supplied, "J", "supplied share of the Jacobi energy"
+        power = built.loading.power(t, angle, relative) - rate_dot * momentum
+        if built.chain.dissipation is not None:
+            power = power - built.chain.dissipation(coordinates, relative)
+        values["supplied_energy"] = (
+            _integral(t, power), "J", "supplied share of the Jacobi energy"
+        )  # fmt: skip
     if model.twists:
         before, turn = model.sections(trajectory.reference[-1]), model.sections(coordinates[:, -1])
         turned = frame.T @ turn @ before.T @ frame
@@ -112,10 +114,7 @@ def columns(
 def _clamp_loads(
     case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, frame: FloatArray
 ) -> dict[str, tuple[FloatArray, str, str]]:
-    """Return what the blade exerts on the clamp, by the constraints' Lagrange multipliers.
-
-    `root` (samples, n) has the root's coordinates in the frame of the clamp, `frame` its axes.
-    """
+    """Return what the blade exerts on the clamp, whose axes are `frame`, by the multipliers."""
     model, count = case.model, case.model.dimensions
     onto = np.zeros_like(root)
     onto[:, :count] = trajectory.multipliers[:, :count]
@@ -137,20 +136,6 @@ def _clamp_loads(
     torque = -np.sum(onto * model.spun(root), axis=1)
     values["clamp_torque"] = torque, "N m", "torque of the clamp about the axis of rotation"
     return values
-
-
-def _power(
-    built: RotatingBeam,
-    t: FloatArray,
-    angle: FloatArray,
-    coordinates: FloatArray,
-    relative: FloatArray,
-) -> FloatArray:
-    """Return the power (samples,) that loads bring, less what damping takes."""
-    power = built.loading.power(t, angle, relative)
-    if built.chain.dissipation is not None:
-        power = power - built.chain.dissipation(coordinates, relative)
-    return power
 
 
 def _torque_across(

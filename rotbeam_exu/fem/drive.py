@@ -130,11 +130,11 @@ def torque_of(
 ) -> Torque:
     """Return the torque by which the constraints of the root, at `angle`, turn it."""
     root, kind = chain.reference(mbs)[0], exudyn.OutputVariableType
-    place = np.eye(element.dimensions, root.size)
+    place, direction = np.eye(element.dimensions, root.size), element.clamp(root)
 
     def torque(mbs: Any, t: float) -> float:
         along = mbs.GetNodeOutput(chain.nodes[0], kind.Coordinates) + root
-        rows = np.vstack((place, element.clamp(root, angle(t))[0]))
+        rows = np.vstack((place, direction(angle(t))[0]))
         multipliers = [np.atleast_1d(mbs.GetObjectOutput(one, kind.Force)) for one in constraints]
         return -float(np.concatenate(multipliers) @ rows @ element.spun(along))
 
@@ -180,7 +180,8 @@ def prescribe_rotation(
     if not radius:
         constraints.append(_hold(mbs, chain, np.eye(element.dimensions, root.size)))
     # Each constraint holds a few coordinates, the same at every angle.
-    rows_at_1 = _clamp(element, root, radius, 1.0)[0]
+    clamp = _clamp(element, root, radius)
+    rows_at_1 = clamp(1.0)[0]
     held = [np.flatnonzero(row).tolist() for row in rows_at_1]
     # Called seven times a step: nothing is done twice for one t, and numbers are plain.
     time, gradient, rows = np.nan, rows_at_1, [([(0.0, 0)], 0.0)]
@@ -188,7 +189,7 @@ def prescribe_rotation(
     def turn_to(t: float) -> None:
         nonlocal time, gradient, rows
         time = t
-        gradient, target = _clamp(element, root, radius, rotation.angle(t))
+        gradient, target = clamp(rotation.angle(t))
         rows = [
             ([(row[i], i) for i in at], d)
             for at, row, d in zip(held, gradient.tolist(), target.tolist(), strict=True)
@@ -226,20 +227,22 @@ def prescribe_rotation(
 
 
 def _clamp(
-    element: Formulation, root: FloatArray, radius: float, angle: float
-) -> tuple[FloatArray, FloatArray]:
-    """Return C and d of the constraints C e = d of the root at `angle`, on a hub of `radius`.
-
-    On a hub the root's place goes around as well; at the axis it stands still and is fixed.
-    """
-    gradient, target = element.clamp(root, angle)
-    if not radius:
-        return gradient, target
+    element: Formulation, root: FloatArray, radius: float
+) -> Callable[[float], tuple[FloatArray, FloatArray]]:
+    """Return the function of θ that gives C and d of the root's C e = d, on a hub of `radius`."""
+    direction = element.clamp(root)
+    if not radius:  # at the axis its place stands still
+        return direction
     x, y, *up = root[: element.dimensions]
-    cosine, sine = math.cos(angle), math.sin(angle)
-    around = [x * cosine - y * sine, x * sine + y * cosine, *up]
     place = np.eye(element.dimensions, root.size)
-    return np.vstack([place, gradient]), np.concatenate([around, target])
+
+    def at(angle: float) -> tuple[FloatArray, FloatArray]:
+        gradient, target = direction(angle)
+        cosine, sine = math.cos(angle), math.sin(angle)
+        around = [x * cosine - y * sine, x * sine + y * cosine, *up]
+        return np.vstack([place, gradient]), np.concatenate([around, target])
+
+    return at
 
 
 def add_inertial_forces(

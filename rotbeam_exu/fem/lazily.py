@@ -1,10 +1,13 @@
-"""Exudyn, imported when it is first used: formulations have names and options without it."""
+"""All that is known without Exudyn, which is imported when it is first used."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from analytic.lazily import Lazily
+
+Frame = Literal["inertial", "rotating"]
+"""The coordinates of a model."""
 
 
 class _OfExudyn(Lazily):
@@ -24,7 +27,7 @@ if TYPE_CHECKING:
 else:
     exudyn, items = _OfExudyn("exudyn"), _OfExudyn("exudyn.itemInterface")
 
-__all__ = ["exudyn", "items", "require_exudyn"]
+__all__ = ["Frame", "exudyn", "items", "require_exudyn"]
 
 
 def require_exudyn() -> str:

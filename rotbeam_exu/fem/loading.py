@@ -24,10 +24,9 @@ from analytic.lazily import sparse
 from analytic.loads import Load
 from analytic.motion import Rotation
 
-from ..runs.attributes import Frame
 from .elements.energy_body import add_force, triplets
 from .elements.formulation import Chain, Formulation
-from .lazily import exudyn
+from .lazily import Frame, exudyn
 from .solver import mass_matrix
 
 

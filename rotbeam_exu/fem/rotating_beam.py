@@ -12,11 +12,10 @@ from analytic.lazily import sparse
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
-from ..runs.attributes import Frame
 from ..runs.check import whole_steps
 from . import drive
 from .elements import Chain, Formulation, formulation, require_joint, require_modeled
-from .lazily import exudyn, items
+from .lazily import Frame, exudyn, items
 from .loading import Loading
 from .solver import mass_matrix, newton_tolerance, solver_settings
 from .units import Restated, Units

@@ -13,9 +13,8 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
-from ..runs.attributes import Frame
 from .elements.formulation import Chain, Formulation
-from .lazily import exudyn, items
+from .lazily import Frame, exudyn, items
 
 _TOLERANCE = 1e-9
 """Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""

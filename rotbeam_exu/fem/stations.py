@@ -118,6 +118,7 @@ class _Masses:
                 push = load.force(phase, angle, model.setting(self._beam))[:, None]
                 f[..., 0] += self._weights[load.acts_on] * push.real
                 f[..., 1] += self._weights[load.acts_on] * push.imag
+                f[..., 2] += self._weights[load.acts_on] * load.lift(phase)[:, None]
         couple, section = np.cross(r[:, :count], f), model.sections(e)
         if self._second.any():
             ahead, d, behind = (

@@ -206,7 +206,8 @@ def _two_frames(data: xr.Dataset) -> tuple[Axes, list[_Moving]]:
     ]
     if space:
         moving.append(_history(history, data, _flap(data), RED, RED))
-        history.legend(history.lines[-4::2], ("q", "w"), ncols=2, loc="lower right")
+        size = history.yaxis.label.get_fontsize()
+        history.legend(history.lines[-4::2], "qw", ncols=2, loc="lower right", fontsize=size)
     history.set_ylabel("q/L, w/L" if space else "q/L")
     return history, moving
 

@@ -72,7 +72,7 @@ class Assessment:
 
     @property
     def refined_error(self) -> float:
-        """Frequency of a mesh twice as fine."""
+        """Relative error of ω_n of a mesh twice as fine."""
         return self.refined_omega_n / self.exact_omega_n - 1.0
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -196,17 +196,11 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
     return linear_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Sampled:
-    """A history of the tip as samples that a spline joins.
+class Sampled(NamedTuple):
+    """A history of the tip at `time` [s]: `q` [m], in space lag, flap and twist (samples, 3).
 
-    Attributes
-    ----------
-    time, q : ndarray (samples,)
-        [s], [m]; in space lag, flap and twist (samples, 3).
-    error : float
-        Over max|q|, of the worst component: of the samples by the next coarser computation, and of
-        the spline by the computation halfway between them.
+    `error`, over max|q|, of the worst component: of the samples by the next coarser computation,
+    and of the spline that joins them by the computation halfway between them.
     """
 
     time: FloatArray

@@ -1,4 +1,4 @@
-"""Blades as values, and the frequencies of hub, masses, taper and setting."""
+"""Blades as values, the equations of motion, and frequencies of hub, masses, taper, setting."""
 
 import math
 import pickle
@@ -8,19 +8,17 @@ import numpy as np
 import pytest
 
 from analytic import (
-    Blade,
     PointMass,
     Section,
-    SpinUp,
     Theory,
     linear_modes,
-    periodic_orbits,
     reduced_model,
-    spin_up_response,
 )
 from analytic.exact.beam.continuum import Continuum
 from analytic.exact.beam.state import Driven
+from analytic.exact.beam.steady import continuum
 from analytic.quadrature import gauss_points
+from analytic.unit_blade import UNIFORM
 from tests.beams import UNIT
 
 HUB_AND_ALL = UNIT.with_hub_radius(0.5).with_tip_mass(0.3, 0.02).with_taper(0.2, 0.3)
@@ -155,40 +153,6 @@ def test_a_blade_that_is_the_beam_has_its_numbers(beam):
     )
 
 
-def test_stations_of_a_taper_come_near_it(fitted_order):
-    counts, errors = np.array([4, 8, 16, 60]), []
-    exact = Section(
-        axial_stiffness=1e9, mass_per_length=1.0,
-        bending_stiffness=tuple(np.polynomial.polynomial.polypow([1.0, -0.5], 3)),
-    )  # fmt: skip
-    wanted = lag(Blade(length=1.0, section=exact), 4.0)[0]
-    for n in counts:
-        at = [(x, 1.0 - 0.5 * x) for x in np.linspace(0.0, 1.0, n + 1)]
-        cubed = [(x, y**3) for x, y in at]
-        bent = Section(axial_stiffness=1e9, bending_stiffness=cubed, mass_per_length=1.0)
-        errors.append(abs(lag(Blade(length=1.0, section=bent), 4.0)[0] / wanted - 1.0))
-    # A straight line between stations is off by the square of their distance.
-    assert fitted_order(1.0 / counts, errors) == pytest.approx(2.0, abs=0.1)
-
-
-def test_a_spin_up_on_a_hub_ends_on_the_backbone(beam):
-    """Until the ramp is long, the tip lags behind; after it, the first mode rings on."""
-    blade = beam.with_hub_radius(0.8).with_tip_mass(0.3).with_taper(0.2, 0.2)
-    time = np.linspace(0.0, 8.0, 1601)
-    found = spin_up_response(blade, SpinUp(omega=4.0, ramp_time=3.0), time, tolerance=1e-5)
-    assert found.q.min() < -0.1
-    late = found.q[time > 3.0]
-    rises = np.flatnonzero((late[:-1] < 0.0) & (late[1:] >= 0.0))
-    crossing = time[time > 3.0][rises] - late[rises] * 0.005 / (late[rises + 1] - late[rises])
-    period = np.diff(crossing).mean()
-    exact = periodic_orbits(blade, 4.0, [0.5 * np.ptp(late) / blade.length])
-    # Other modes shift single crossings.
-    assert 2.0 * np.pi / period == pytest.approx(exact.frequency[0], rel=5e-3)
-    reach = np.hypot(*found.tip.T)
-    assert blade.hub_radius < reach.min()
-    assert reach.max() <= (blade.hub_radius + blade.length) * 1.0001
-
-
 def test_blades_are_values():
     one = UNIT.with_point_mass(0.1, 0.5).with_taper(0.1)
     same = UNIT.with_point_mass(0.1, 0.5).with_taper(0.1)
@@ -201,3 +165,42 @@ def test_blades_are_values():
     section = Section(axial_stiffness=1e9, bending_stiffness=stations, mass_per_length=1.0)
     assert section.bending_stiffness == ((0.0, 2.0), (1.0, 1.0))
     assert PointMass(position=np.float64(1.0), mass=1).position == 1.0
+
+
+def test_energy_norm_of_the_coordinates_is_the_elastic_energy():
+    model = continuum(1e-3, 8, 6)
+    rng = np.random.default_rng(5)
+    q = 0.2 * rng.normal(size=model.size)
+    x, weights = gauss_points(30)
+    h = 1e-6
+    slope, ahead, behind = (model.slope(q, at) for at in (x, x + h, x - h))
+    curvature = (slope.conj() * (ahead - behind) / (2.0 * h)).imag / np.abs(slope) ** 2
+    energy = 0.5 * weights @ (curvature**2 + (np.abs(slope) - 1.0) ** 2 / 1e-3)
+    assert energy == pytest.approx(0.5 * q @ q, rel=1e-7)
+
+
+@pytest.mark.parametrize("shear", [None, 0.3])
+def test_rates_and_gradients_of_a_shape_are_those_of_differences(shear):
+    """Of the tip, the slope, the shear angle; the curvature and e' are derivatives to x."""
+    model = continuum(1e-2, 6, 5, UNIFORM, shear)
+    q, q_dot = 0.3 * np.random.default_rng(4).normal(size=(2, 3, model.size))
+    x, h = np.array([0.2, 0.7]), 1e-6
+
+    def rate(of):
+        return (of(q + h * q_dot) - of(q - h * q_dot)) / (2.0 * h)
+
+    assert model.tip_rate(q, q_dot) == pytest.approx(rate(model.tip), abs=1e-8)
+    gradient = np.sum(model.tip_gradient(q) * q_dot, axis=1)
+    assert gradient == pytest.approx(rate(model.tip), abs=1e-8)
+    slope = rate(lambda at: model.slope(at, x))
+    assert model.slope_rate(q, q_dot, x) == pytest.approx(slope, abs=1e-8)
+    sheared = rate(lambda at: model.shear_angle(at, q_dot, x)[0])
+    assert model.shear_angle(q, q_dot, x)[1] == pytest.approx(sheared, abs=1e-8)
+    curvature, extension, change = (one[0] for one in model.bent(q[:1]))
+    slopes = [model.slope(q[:1], model.points + step)[0] for step in (h, 0.0, -h)]
+    shears = [model.shear_angle(q[:1], q_dot[:1], model.points + s)[0][0] for s in (h, 0.0, -h)]
+    angles = np.array([np.angle(z) - s for z, s in zip(slopes, shears, strict=True)])
+    stretches = np.array([np.abs(z) * np.cos(s) for z, s in zip(slopes, shears, strict=True)])
+    assert curvature == pytest.approx((angles[0] - angles[2]) / (2.0 * h), abs=1e-6)
+    assert extension == pytest.approx(stretches[1] - 1.0, abs=1e-12)
+    assert change == pytest.approx((stretches[0] - stretches[2]) / (2.0 * h), abs=1e-6)

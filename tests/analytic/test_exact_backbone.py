@@ -1,60 +1,23 @@
-"""Periodic orbits of the exact beam: golden frequencies, perturbation theory, invariants."""
+"""Periodic orbits of the exact beam: golden frequencies, invariants, amplitudes not reached."""
 
 import warnings
 
 import numpy as np
 import pytest
-from scipy import linalg
 
 import analytic
 from analytic import AmplitudeNotReachedError, Theory, linear_modes, periodic_orbits
 from analytic.input_checks import RotbeamWarning
 from analytic.methods import harmonic_balance
+from analytic.methods.continuation import Care
 from analytic.methods.harmonic_balance import LastTangent, solve
-from analytic.quadrature import gauss_points
-from tests.beams import UNIT, clamped_basis, deflection_matrices
+from tests.beams import UNIT
 
 AMPLITUDES = [0.05, 0.10, 0.15, 0.20, 0.25]
 RATIOS = {
     2.0: [1.000022, 1.000090, 1.000203, 1.000364, 1.000574],
     8.0: [0.999940, 0.999761, 0.999459, 0.999032, 0.998473],
 }
-
-
-def perturbed_lambda(rate):
-    """λ_ω of the inextensible beam to leading order, all Coriolis-coupled modes condensed.
-
-    One mode with foreshortening to fourth order, then
-    λ_ω += (4 w̄²/M₁) dᵀ(K - 4 w̄₁² M)⁻¹d: displacements and a Galerkin basis in v, nothing of
-    the solver under test.
-    """
-    count = 16
-    x, weights = gauss_points(60)
-    basis = clamped_basis(count, x)
-    tension = 0.5 * (1.0 - x**2) * weights
-    stiffness, mass = deflection_matrices(rate, count)
-    inverse, vectors = linalg.eigh(mass, stiffness)
-    square = 1.0 / inverse[-1]
-    c = vectors[:, -1] / (clamped_basis(count, np.array([1.0])).value[0] @ vectors[:, -1])
-    v, slope, curvature = basis.value @ c, basis.slope @ c, basis.curvature @ c
-    modal = weights @ v**2
-
-    def integral(f):
-        """Integral from the clamp, by the Legendre interpolant."""
-        legendre = clamped_basis(x.size, x, 1)
-        return legendre.value @ (legendre.slope * weights[:, None]).T @ f
-
-    # u' = -v'²/2 - v'⁴/8: V/a⁴ and T/(a²ȧ²), with the centrifugal potential in V.
-    shortening = weights @ integral(slope**2) ** 2
-    quartic = weights @ (curvature * slope) ** 2 / 2.0
-    quartic += rate**2 / 8.0 * (tension @ slope**4 - shortening)
-    g1 = 4.0 * quartic / modal
-    g2 = shortening / modal
-    a_phi = -0.5 * np.array([integral(slope * column) for column in basis.slope.T]).T
-    a_first = -0.5 * integral(slope**2)
-    d = weights @ (a_phi * v[:, None] - a_first[:, None] * basis.value)
-    coupled = np.linalg.solve(stiffness - 4.0 * square * mass, d)
-    return g2 / 4.0 - 3.0 * g1 / (8.0 * square) + 4.0 * rate**2 / modal * (d @ coupled)
 
 
 @pytest.fixture(scope="module", params=sorted(RATIOS))
@@ -110,16 +73,6 @@ def test_near_a_resonance_no_orbit_depends_on_the_functions():
 def test_invariants(backbone):
     assert backbone.jacobi_drift.max() < 1e-10
     assert backbone.residual.max() < 1e-5
-
-
-@pytest.mark.parametrize("omega", np.linspace(0.0, 12.0, 7))
-def test_lambda_omega_is_that_of_perturbation_theory(beam, omega):
-    exact = periodic_orbits(beam, omega, [0.05])
-    theory = perturbed_lambda(omega / beam.frequency_scale)
-    assert exact.lambda_omega == pytest.approx(theory, abs=2e-5)
-    # Without extension nothing is left but the extrapolation to a = 0.
-    inextensible = periodic_orbits(beam, omega, [0.05], theory=Theory(extension=False))
-    assert inextensible.lambda_omega == pytest.approx(theory, abs=2e-8)
 
 
 def test_lambda_omega_at_rest(beam):
@@ -268,3 +221,34 @@ def test_a_tangent_that_leads_astray_is_made_anew(beam):
     assert found.frequency == pytest.approx(
         harmonic_balance.solve(orbit.scaled(0.21), 0.21).frequency, rel=1e-12
     )
+
+
+@pytest.mark.parametrize("amplitudes", [[0.04, 0.06], [0.02, 0.03], [0.02, 0.04], [0.04]])
+def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
+    found = periodic_orbits(beam, 6.0, amplitudes)
+    expected = 1.0 - found.lambda_omega * found.amplitude**2
+    # The next term, κa⁴ with κ = 0.0072.
+    assert found.frequency / found.omega_n == pytest.approx(expected, abs=1e-2 * 0.06**4)
+    # Of the extrapolation from 0.02 and 0.04.
+    assert found.lambda_omega_error == pytest.approx(0.0072 * 0.02**2, rel=0.02)
+
+
+def test_orbits_found_are_attached(beam, monkeypatch):
+    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
+    asked = [0.2, 0.6, 0.1]
+    with pytest.raises(AmplitudeNotReachedError, match=r"of 0\.6 was found") as caught:
+        periodic_orbits(beam, 6.0, asked)
+    kept = caught.value.orbits
+    whole = periodic_orbits(beam, 6.0, [0.2, 0.1])
+    assert kept.amplitude.tolist() == [0.2, 0.1]
+    np.testing.assert_array_equal(kept.frequency, whole.frequency)
+    assert isinstance(caught.value, RuntimeError)
+    with pytest.raises(AmplitudeNotReachedError) as caught:
+        periodic_orbits(beam, 6.0, [0.6])
+    assert caught.value.orbits is None
+
+
+def test_an_orbit_lost_in_round_off_does_not_cost_the_larger(beam):
+    with pytest.raises(AmplitudeNotReachedError, match="take linear_modes") as caught:
+        periodic_orbits(beam, 6.0, [1e-14, 0.1])
+    assert caught.value.orbits.amplitude.tolist() == [0.1]

@@ -151,7 +151,7 @@ def test_period_doubling_in_rotation():
 )
 def test_refusals(blade, told, words):
     with pytest.raises(ValueError, match=words):
-        backbone(blade, 0.0, functions=8).leaving(**told)
+        backbone(blade, 0.0, functions=4).leaving(**told)
 
 
 def test_the_picture(of_strip):

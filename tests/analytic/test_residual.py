@@ -207,8 +207,6 @@ def test_no_such_ramp(beam):
         design_ramp(beam, 6.0, 4.0, largest=0.15)
     with pytest.raises(ValueError, match="takes 7.5 s at least from 0 to 6 rad/s"):
         design_ramp(beam, 6.0, 7.0, acceleration_limit=0.8)
-    with pytest.raises(ValueError, match="is below the 6 rad/s at one end"):
-        design_ramp(beam, 6.0, 7.0, speed_limit=5.0)
     with pytest.raises(ValueError, match="nothing to change"):
         design_ramp(beam, 6.0, 7.0, start=6.0)
 
@@ -216,8 +214,6 @@ def test_no_such_ramp(beam):
 def test_bad_input(beam):
     with pytest.raises(TypeError, match="must be a SpinUp"):
         residual_amplitude(beam, SteadyRotation(omega=6.0))
-    with pytest.raises(ValueError, match="backbone of mode 1"):
-        residual_amplitude(beam, eq_1(6.0, 3.0), mode=2, corrected=True)
     with pytest.raises(ValueError, match="ramp_times must be positive"):
         residual_amplitude(beam, eq_1(6.0, 3.0), [1.0, 0.0])
     with pytest.raises(ValueError, match="take a speed above zero"):

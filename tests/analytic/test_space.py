@@ -85,7 +85,7 @@ class Across:
         # Which changes the growth by 1e-3 and 1e-1 of itself.
         (SLENDER, 0.3917, Theory(trapeze=False), DAMPING, 1e-8),
         # The inertia of the sections against flap, which L2 leaves out: 4e-5.
-        (STRIP, 0.045, Theory(), UNDAMPED, 1e-4),
+        pytest.param(STRIP, 0.045, Theory(), UNDAMPED, 1e-4, marks=pytest.mark.slow),
         (STRIP, 0.045, Theory(), DAMPING, 1e-4),
         (STRIP, 0.045, Theory(trapeze=False, rotary_inertia=True), UNDAMPED, 1e-4),
     ],

@@ -68,18 +68,6 @@ def test_a_moment_rolls_a_bar_up(about, turns):
     assert state.tip == pytest.approx(known / angle, abs=1e-12)
 
 
-def test_a_torque_and_a_pull_twist_and_stretch():
-    """ML/GJ and F/EA, of a bar of two meters with GJ = EI/2."""
-    blade = Beam.from_stiffness(
-        length=2.0, axial_stiffness=1e4, bending_stiffness=3.0, mass_per_length=1.0
-    ).with_section_out_of_plane(1.0, 0.5)
-    load = {"force": (50.0, 0.0, 0.0), "moment": (0.7, 0.0, 0.0)}
-    state = steady_state(blade, 0.0, **load, theory=Theory(trapeze=False))
-    assert state.tip == pytest.approx([2.0 + 2.0 * 50.0 / 1e4, 0.0, 0.0], abs=1e-13)
-    model, q = state._steady.model, state._steady.equilibrium
-    assert model.weights @ (model.strains.K[0] @ q) == pytest.approx(0.7 * 2.0 / 1.5, abs=1e-12)
-
-
 def test_a_column_is_followed_to_where_it_buckles():
     """Euler's load π²EI/4L²: refused beyond it, where the straight state is unstable."""
     critical = 0.25 * math.pi**2

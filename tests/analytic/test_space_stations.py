@@ -240,24 +240,6 @@ def test_the_swept_tip_of_epps_and_chandra():
         assert np.subtract(*moved) == pytest.approx(tip, abs=6e-8)
 
 
-@pytest.mark.parametrize("about", [1, 2])
-def test_arcs_on_both_sides_of_a_kink(about):
-    """A moment bends both parts to circles of one curvature, the second turned by the kink."""
-    bent, kink, at = 1.3, 0.7, 0.4
-    angles = {"prebend" if about == 1 else "sweep": kink}
-    blade = BEAM.with_section_out_of_plane(1.0, 1.0).with_kink(at, **angles)
-    moment = bent * np.eye(3)[about]
-    state = steady_state(blade, 0.0, moment=moment, theory=Theory(extension=False, trapeze=False))
-
-    def arc(start, length):
-        there = start + bent * length
-        return np.array([math.sin(there) - math.sin(start), math.cos(start) - math.cos(there)])
-
-    along, across = (arc(0.0, at) + arc(bent * at + kink, 1.0 - at)) / bent
-    known = [along, across, 0.0] if about == 2 else [along, 0.0, -across]
-    assert state.tip == pytest.approx(known, abs=1e-12)
-
-
 def test_kinks_turn_what_lies_beyond_them_about_axes_of_their_own_section():
     """Three straight parts, the sections of which are set and twisted; rotations by scipy."""
     blade = BEAM.with_section_out_of_plane(1.0, 1.0).with_setting_angle(0.4).with_twist(0.5)

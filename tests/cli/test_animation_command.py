@@ -72,7 +72,7 @@ def test_the_linear_model_is_shown_beside_it_when_asked(call, monkeypatch, tmp_p
 
 
 def test_a_run_with_stations_is_shown_and_written_for_paraview(call, tmp_path):
-    run = ("run", "--omega", "1", "--ramp-time", "1", "--duration", "14", "--step", "0.005")
+    run = ("run", "--omega", "1", "--ramp-time", "1", "--duration", "14", "--step", "0.01")
     mesh = ("--elements", "2", "--stations", "5", "--no-figure", "--no-exact")
     code, out, error = call(*run, *mesh, "--out", tmp_path)
     assert (code, error) == (0, "")

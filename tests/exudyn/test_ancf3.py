@@ -30,14 +30,6 @@ def test_sixteen_elements_have_the_papers_coordinates(beam):
         natural_frequencies(beam, 0.0, element="ancf3", count=129)
 
 
-@pytest.mark.slow  # an orbit in time, and linear frequencies, are tested by default
-def test_three_elements(beam, spin_up):
-    """The mesh of the paper's Figs. 3 and 4."""
-    run = simulate(beam, spin_up, element="ancf3", elements=3, step=4e-3, duration=9.0,
-                   frame="rotating")  # fmt: skip
-    assert steady_oscillation(run).frequency == pytest.approx(3.751, abs=1e-4)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("law", "frequency"), [("uncoupled", 3.7231), ("coupled", 3.848)])
 def test_nonlinear_frequency(beam, spin_up, law, frequency):
@@ -87,17 +79,6 @@ def test_stiff_shear_leaves_the_cable_but_for_the_law_of_strain(beam):
     rotary = modes.frequencies[0] / linear_modes(beam, omega, 1).frequencies[0]
     # Beyond the first order in ε there is the mesh, 5e-7.
     assert stiff / cable - rotary == pytest.approx(gain, abs=2e-6)
-
-
-def test_mass_is_that_of_the_beam(beam):
-    """Translation, and the rotation of the whole with the sections' own inertia."""
-    mass = mass_matrix(Ancf3(), beam, 4)
-    along, about = np.zeros((9, 4)), np.zeros((9, 4))
-    along[:, 0] = 1.0
-    about[:, 1], about[:, 2] = np.linspace(0.0, beam.length, 9), -1.0
-    assert along.ravel() @ mass @ along.ravel() == pytest.approx(beam.mass, rel=1e-14)
-    inertia = beam.mass * beam.length**2 / 3 + beam.density * beam.second_moment * beam.length
-    assert about.ravel() @ mass @ about.ravel() == pytest.approx(inertia, rel=1e-14)
 
 
 def test_mass_is_that_of_a_blade_that_tapers(beam):

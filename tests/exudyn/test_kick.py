@@ -117,13 +117,3 @@ def test_a_slender_blade_takes_a_small_kick_or_small_steps(slenderness):
         run(1e-2, 50)
     assert abs(run(1e-6, 50).w[0].item()) == pytest.approx(8e-6, rel=1e-6)
     assert run(1e-2, 800).w[0].item() == pytest.approx(8e-2, rel=1e-4)
-
-
-def test_a_slender_cable_takes_a_kick_of_a_hundredth():
-    blade = slender(1e-8, 1.0)
-    end = 0.25 / blade.omega_0
-    run = simulate(
-        blade, SteadyRotation(omega=0.4 * blade.omega_0), element="space_cable", elements=4,
-        duration=end, step=end / 50, initial_state=kicked(blade, 1e-2),
-    )  # fmt: skip
-    assert np.abs(run.w).max() <= 8e-2

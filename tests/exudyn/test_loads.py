@@ -20,7 +20,6 @@ from analytic import (
 from rotbeam_exu import SimulationError, load, save, simulate
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.case import RunCase
-from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.runs.attributes import loads_of
 from rotbeam_exu.runs.check import check_run, remedy
@@ -39,81 +38,33 @@ def by_mass(blade, c, **viscous):
     return blade.with_damping(Damping(external=external, **viscous))
 
 
-def last_cycle(blade, omega, loads, frequency, cycles, **options):
-    """The last of some cycles of the load, spun up from rest: time, angle, q/L."""
-    period = 2.0 * np.pi / frequency
-    run = simulate(
-        blade, SpinUp(omega=omega, ramp_time=2.0), loads=loads, duration=cycles * period,
-        step=period / 500, elements=8, **options,
-    )  # fmt: skip
-    last = run.isel(time=run["time"].to_numpy() > (cycles - 1.0) * period)
-    return last["time"].to_numpy(), last["angle"].to_numpy(), last["q"].to_numpy() / blade.length
-
-
-@pytest.mark.parametrize(
-    ("frame", "dressed"),
-    [
-        # That both frames agree under all loads is tested below.
-        *(pytest.param(frame, False, marks=pytest.mark.slow) for frame in ("inertial", "rotating")),
-        ("rotating", True),
-    ],
-)
-def test_under_its_weight_it_settles_on_the_exact_response(beam, frame, dressed):
-    """With c = 1.5 and w̄ = 2, plain or with hub, tip mass and setting angle."""
-    blade = by_mass(beam, 1.5)
-    if dressed:
-        blade = blade.with_hub_radius(0.8).with_tip_mass(0.2).with_setting_angle(0.25 * math.pi)
+def test_under_its_weight_it_settles_on_the_exact_response(beam):
+    """With c = 1.5 and w̄ = 2, hub, tip mass and setting angle."""
+    blade = by_mass(beam, 1.5).with_hub_radius(0.8).with_tip_mass(0.2)
+    blade = blade.with_setting_angle(0.25 * math.pi)
     omega = 2.0 * beam.frequency_scale
     exact = forced_response(blade, [0.9 * omega, omega, 1.05 * omega], Gravity())
-    _, angle, q = last_cycle(blade, omega, [Gravity()], omega, 7, frame=frame)
+    period = 2.0 * np.pi / omega
+    run = simulate(
+        blade, SpinUp(omega=omega, ramp_time=2.0), loads=[Gravity()], duration=7.0 * period,
+        step=period / 500, elements=8, frame="rotating",
+    )  # fmt: skip
+    last = run.isel(time=run["time"].to_numpy() > 6.0 * period)
+    angle, q = last["angle"].to_numpy(), last["q"].to_numpy() / blade.length
     (i,) = exact.at(omega)
     assert exact.amplitude[i] > 0.2
     # What is left of the start, and the step's share, are a third of it.
     assert np.abs(q - exact.response(angle, i)).max() < 1e-3 * exact.amplitude[i]
 
 
-@pytest.mark.slow  # by default under gravity, in exact spin-ups, by energy, and in both frames
-@pytest.mark.parametrize(
-    ("kind", "size", "omega", "element", "frame"),
-    [
-        (TipForce, 0.5, 2.0, Exact(nodes=3), "rotating"),
-        (SpeedRipple, 0.6, 6.0, "cable", "inertial"),
-        (SpeedRipple, 0.6, 6.0, "cable", "rotating"),
-        (TipForce, 0.5, 2.0, "cable", "inertial"),
-        (DistributedForce, 1.2, 2.0, Exact(nodes=3), "inertial"),
-        (DistributedForce, 1.2, 2.0, "cable", "rotating"),
-        (DistributedForce, 1.2, 2.0, "ancf3", "rotating"),
-    ],
-)
-def test_under_a_harmonic_load_it_settles_on_the_exact_response(
-    beam, kind, size, omega, element, frame
-):
-    blade, scale = by_mass(beam, 2.0), beam.frequency_scale
-    force = beam.bending_stiffness / beam.length**2
-    unit = {SpeedRipple: scale, TipForce: force, DistributedForce: force / beam.length}[kind]
-    pushed, nu = kind(amplitude=size * unit), 3.8 * scale
-    exact = forced_response(blade, omega, pushed, [0.9 * nu, nu, 1.1 * nu])
-    drive = replace(pushed, frequency=nu)
-    time, _, q = last_cycle(blade, omega, [drive], nu, 7, frame=frame, element=element)
-    (i,) = exact.at(nu)
-    assert exact.amplitude[i] > 0.2
-    # The step in the inertial frame; elsewhere a third of it.
-    assert np.abs(q - exact.response(nu * time, i)).max() < 2e-3 * exact.amplitude[i]
-
-
-@pytest.mark.parametrize(
-    "loads",
-    [ALL, *(pytest.param((one,), marks=pytest.mark.slow) for one in ALL)],  # all hold each
-    ids=str,
-)
-def test_the_energy_balance_closes_to_second_order_in_the_step(beam, loads):
-    """In flap and lag at once, with masses; all loads, and each alone."""
+def test_the_energy_balance_closes_to_second_order_in_the_step(beam):
+    """In flap and lag at once, with masses, under all loads."""
     blade = beam.with_hub_radius(0.5).with_tip_mass(0.1, 0.01).with_setting_angle(0.7)
     errors = []
     for step in (8e-3, 4e-3):
         run = simulate(
             blade, SpinUp(omega=4.0, ramp_time=2.0), elements=4, duration=4.0, step=step,
-            frame="rotating", loads=loads,
+            frame="rotating", loads=ALL,
         )  # fmt: skip
         balance = (run["jacobi_energy"] - run["supplied_energy"]).to_numpy()
         errors.append(np.abs(balance - balance[0]).max() / run["elastic_energy"].max().item())

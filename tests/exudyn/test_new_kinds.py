@@ -21,7 +21,6 @@ from analytic import (
     SteadyRotation,
     Theory,
     TipForce,
-    Tube,
     forced_response,
     residual_amplitude,
     spin_up_response,
@@ -39,7 +38,7 @@ from rotbeam_exu import (
     simulate,
 )
 from rotbeam_exu.fem.case import RunCase
-from rotbeam_exu.fem.elements import Cable, SpaceCable
+from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.files.results import differing_inputs
 from rotbeam_exu.runs.attributes import (
     beam_attributes,
@@ -184,13 +183,6 @@ def test_a_load_without_a_frequency_drives_a_run_and_has_no_response_over_one(be
     assert np.abs(exact - calm).max() > 0.1 * largest
     with pytest.raises(TypeError, match="the frequency of a load, and a wind of 0.5 N/m has none"):
         forced_response(beam, 6.0, wind, [3.6, 3.7])
-
-
-def test_a_run_in_space_says_so(tmp_path):
-    tube = Beam.reference().with_shape(Tube(radius=0.015, wall=0.77e-3))
-    run = simulate(tube, MOTION, element="space_cable", elements=2, duration=2.5, step=5e-3)
-    path = save(run, tmp_path / "space.nc")
-    assert type(RunCase.described(load(path).attrs).model) is SpaceCable
 
 
 @pytest.mark.slow  # a child; every load of ours is an option in the same way

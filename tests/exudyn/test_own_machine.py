@@ -191,19 +191,6 @@ def test_the_torque_is_what_changes_the_momentum(beam, element):
         assert given == pytest.approx(momentum(mbs, one), rel=1e-4)
 
 
-def test_the_torque_is_the_same_in_both_frames(beam):
-    torques = []
-    for frame in ("inertial", "rotating"):
-        with exudyn_system() as mbs:
-            one = add_rotating_beam(mbs, beam, SPIN_UP, elements=4, frame=frame, azimuth=0.7)
-            sensor = one.add_torque_sensor(mbs)
-            solve(mbs, one, step=2e-3)
-            torques.append(stored(mbs, sensor)[:, 0])
-    inertial, rotating = torques
-    # Of two integrators; the difference falls with the square of the step.
-    assert rotating == pytest.approx(inertial, abs=2e-4 * abs(inertial).max())
-
-
 @pytest.mark.parametrize("element", ["cable", "exact"])
 def test_a_free_hub_and_its_blades_keep_angular_momentum(beam, element):
     """It has the impulse of a torque on the hub, and a blade that of its clamp."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from analytic import Beam, SpinUp
+from analytic import Beam, FourierRamp, SpeedTable, SpinUp, spin_up_response
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.runs.check import energy_drift
@@ -64,7 +64,7 @@ def test_amplitude_and_frequency(beam, fine):
 
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])
 def test_step_order_is_two(coarse, frame, fitted_order):
-    steps = np.array([4e-3, 2e-3, 1e-3])
+    steps = np.array([8e-3, 4e-3, 2e-3])
     times = np.arange(0.1, 6.01, 0.1)
     runs = [at(coarse(h, frame), times) for h in steps]
     changes = [np.abs(a - b).max() for a, b in pairwise(runs)]
@@ -91,11 +91,11 @@ def test_mesh_order_is_four(coarse, fine, fitted_order):
 def test_both_frames_converge_to_the_same(coarse):
     """Two formulations of drive, inertia and integrator; the difference falls with the step."""
     gaps = []
-    for step in (2e-3, 1e-3):
+    for step in (4e-3, 2e-3):
         inertial, rotating = (coarse(step, frame) for frame in ("inertial", "rotating"))
         gaps.append(np.abs(inertial["q"] - rotating["q"]).max().item())
     assert gaps[1] < 0.26 * gaps[0]
-    assert gaps[1] < 1e-3
+    assert gaps[1] < 4e-3
 
 
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])
@@ -115,14 +115,6 @@ def test_velocity_is_the_rate_of_q(main_job):
     # Central differences at 5 ms: h²/6 times the third derivative (25 rad/s)³ of small content.
     inner = slice(1, -1)
     assert np.abs(slope - main_job["q_dot"])[inner].max() < 2e-3
-
-
-def test_work_of_the_drive_is_the_energy(main_job):
-    """dE/dt is the drive's power; with E - θ' L_z steady it is ω dL_z/dt, on average zero."""
-    steady = main_job.where(main_job["time"] >= 3.0, drop=True)
-    total = steady["kinetic_energy"] + steady["elastic_energy"]
-    assert total.max() - total.min() > 1.0
-    assert np.ptp(steady["jacobi_energy"].to_numpy()) < 1e-3 * np.ptp(total.to_numpy())
 
 
 def test_tip_stays_on_its_definition(main_job):
@@ -151,3 +143,27 @@ def test_steady_stretch_of_the_classic_beam():
     )
     # Printed in the literature as 5.14e-4; five digits from tan(kL)/k - L.
     assert Linearization.of(classic, 6.0).stretch == pytest.approx(5.1432e-4, abs=5e-9)
+
+
+DOWN = FourierRamp(start=6.0, omega=1.0, ramp_time=2.0, cosines=(-1.2, 0.2), sines=(0.2, -0.1))
+TABLE = SpeedTable([0.0, 1.0, 2.0, 3.0], [2.0, 3.0, 5.0, 6.0])
+
+
+@pytest.mark.parametrize(
+    ("motion", "frame"),
+    [
+        (DOWN, "inertial"),
+        (TABLE, "rotating"),
+        pytest.param(DOWN, "rotating", marks=pytest.mark.slow),
+        pytest.param(TABLE, "inertial", marks=pytest.mark.slow),
+    ],
+)
+def test_a_change_of_the_speed_is_the_exact_transient(beam, motion, frame):
+    run = simulate(beam, motion, duration=4.0, step=2e-3, frame=frame)
+    exact = spin_up_response(beam, motion, run["time"].to_numpy(), tolerance=1e-6)
+    # 16 cubic elements at 2 ms; the exact beam swings to 0.1 of its length and more.
+    assert run["q"].to_numpy() == pytest.approx(exact.q, abs=2e-4 * beam.length)
+    assert np.abs(exact.q).max() > 0.1 * beam.length
+    # It starts stretched, hence without axial waves.
+    first, second = run["axial_strain"].to_numpy()[:2]
+    assert first == pytest.approx(second, rel=1e-2)

@@ -109,15 +109,11 @@ def submitted(chain, kit, folder, cases, steps=("8e-3", "4e-3", "2e-3"), meshes=
     return read_submission(folder)
 
 
-def test_the_chain_converges_to_the_reference(chain, kit, tmp_path):
-    found = judged(submitted(chain, kit, tmp_path / "mine", ["L", "S1"]))
-    assert found.outcome == "2 of 20 agree, 18 not submitted"
-    for name in ("mesh", "step"):
-        assert found.orders["S1"][name].value == pytest.approx(2.0, abs=0.1)
+def test_the_chain_has_the_linear_frequencies(chain, kit, tmp_path):
+    found = judged(submitted(chain, kit, tmp_path / "mine", ["L"]))
+    assert found.outcome == "1 of 20 agrees, 19 not submitted"
     # Four meshes of order two leave some 1e-5: masses and springs have nothing of ours.
     assert abs(found.findings["L"]["linear frequency"].model_difference) < 2e-5
-    assert abs(found.findings["S1"]["history"].model_difference) < 1e-3
-    assert abs(found.findings["S1"]["nonlinear shift"].model_difference) < 5e-3
 
 
 @pytest.mark.slow
@@ -144,6 +140,11 @@ def test_the_lines_of_the_readme_end_in_a_verdict(kit):
     run(kit, "bash", "-e", "-c", "\n".join(before))
     found = judged(read_submission(kit / "mine"))
     assert found.outcome_of("S1") is Outcome.REFERENCE, str(found)
+    for name in ("mesh", "step"):
+        assert found.orders["S1"][name].value == pytest.approx(2.0, abs=0.1)
+    # Masses and springs have nothing of ours.
+    assert abs(found.findings["S1"]["history"].model_difference) < 1e-3
+    assert abs(found.findings["S1"]["nonlinear shift"].model_difference) < 5e-3
 
 
 def test_the_sample_is_what_the_chain_makes(chain, kit, tmp_path):

@@ -23,7 +23,7 @@ import common  # noqa: E402
 import overview  # noqa: E402
 
 # Of several cases each; a folder that is new is judged in the default suite.
-SLOW = {"chain", "exudyn_cable", "rod"}
+SLOW = {"calculix", "chain", "exudyn_cable", "pyelastica", "rod"}
 NAMES = sorted({path.parent.name for path in CODES.glob("[!_]*/*")})
 
 

@@ -37,18 +37,27 @@ def test_the_table_is_what_spin_up_response_says(end, tolerance):
     np.testing.assert_allclose(found.twist, table["twist"], rtol=0.0, atol=within + 3.2e-8)
 
 
-@pytest.mark.parametrize("case", ["", "small", "mildest"])
-def test_the_script_writes_the_table_anew(monkeypatch, case):
-    """Of 1160 unknowns a step, whose tangents lead nowhere from 0.2 s on in single precision."""
+@pytest.mark.parametrize(
+    ("functions", "case", "rows", "near"),
+    [
+        ("56", "", 26, 1e-9),
+        ("40", "small", 26, 1e-9),
+        ("40", "mildest", 26, 1e-9),
+        # By other steps and tolerances than the table's: seven minutes.
+        pytest.param("56", "", 151, 2e-8, marks=pytest.mark.slow),
+    ],
+)
+def test_the_script_writes_the_table_anew(monkeypatch, functions, case, rows, near):
+    """Of 1624 unknowns a step, whose tangents lead nowhere from 0.2 s on in single precision."""
     made = {}
     ramp, kick, times = run.CASES[case]
-    monkeypatch.setitem(run.CASES, case, (ramp, kick, times[:26]))
+    monkeypatch.setitem(run.CASES, case, (ramp, kick, times[:rows]))
     monkeypatch.setattr(run, "write", lambda code, time, tip, twist: made.update({code: tip}))
-    run.exact("40", "tight" if case == "mildest" else "loose", case)
+    run.exact(functions, "5e-3" if rows < 100 else "1.25e-3", case)
     ((code, tip),) = made.items()
-    table = three_codes.history(code)[:26]
+    table = three_codes.history(code)[:rows]
     places = np.column_stack([table[name] for name in ("along", "lag", "flap")])
-    np.testing.assert_allclose(tip, places, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(tip, places, rtol=0.0, atol=near)
 
 
 def farthest(code, until=1.5):
@@ -57,12 +66,14 @@ def farthest(code, until=1.5):
 
 
 def test_how_far_the_exact_tip_is_known():
-    """By 40 functions, and by 48 with smaller steps and tighter tolerances."""
-    assert farthest("exact_40", 0.7) < 2e-10
-    assert farthest("exact_40") == pytest.approx(1.34e-5, rel=0.01)
-    assert farthest("exact_48", 0.7) < 1e-9
-    assert farthest("exact_48", 1.1) < 1e-6 < farthest("exact_48", 1.11)
-    assert farthest("exact_48") < 2e-5
+    """By 56 functions instead of 72, with steps up to 5 ms and looser tolerances."""
+    assert farthest("exact_56", 0.7) < 1e-9
+    assert farthest("exact_56", 1.0) < 1e-7
+    assert farthest("exact_56", 1.12) < 1e-6 < farthest("exact_56", 1.13)
+    assert farthest("exact_56") == pytest.approx(5.1e-6, rel=0.02)
+    # Eight functions fewer err about twice as much.
+    for until in (0.9, 1.2, 1.5):
+        assert farthest("exact_48", until) > 1.7 * farthest("exact_56", until)
 
 
 def test_three_codes_agree():

@@ -41,6 +41,10 @@ def test_a_right_code_converges_to_the_reference(judged_right):
     assert of["history"].runs.errors[-1] == pytest.approx(put_in, rel=1e-2)
     for quantity in ("amplitude", "history"):
         assert abs(of[quantity].model_difference) < 1e-6
+    # The reference's own amplitude is measured, too: its error counts over itself.
+    true = found.histories["S"].true_oscillation
+    own = of["amplitude"].bound - found.histories["S"].reference.bound
+    assert own * true.amplitude == pytest.approx(true.amplitude_error, rel=1e-6)
     # All runs are compared as far as the shortest goes, its last sample included.
     seen = found.histories["S"]
     compared = seen.finest.time <= min(run.time[-1] for run in seen.runs)

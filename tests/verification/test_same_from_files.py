@@ -10,6 +10,7 @@ from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
+from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import Row
 from rotbeam_exu.verification.submission_files import read_submission, write_submission
@@ -39,7 +40,9 @@ def the_same(submission, folder):
 def test_the_cable(tmp_path):
     entry = replace(formulation_entry(Cable(), elements=8, step=4e-3), meshes=(4, 8, 16))
     found = the_same(handed_in(entry, [CASES["L"], CASES["S1"], CASES["O"]]), tmp_path)
-    assert found.passed
+    # Such coarse meshes decide the orbit alone.
+    assert found.outcome_of("O") is Outcome.REFERENCE
+    assert found.passed is None
 
 
 def test_tolerances_are_judged_as_steps_are(made_of_the_exact_answer, tmp_path):

@@ -56,19 +56,10 @@ class Continuum(Kinematics):
     φ_k(0) = 0, and e + iγ = Σ d_k Ψ_k with Ψ_k orthonormal in the stiffness. Samples in time come
     first in every array. Parameters as attributes of `Kinematics`; of the inextensible beam the
     slenderness is zero.
-
-    Attributes
-    ----------
-    outboard : dict
-        Mass, length and tip beyond each Gauss point, times its weight (points,), by the names
-        "mass", "length" and "tip": a load acts on one of them.
-    has_dear_tangent : bool
-        Whether one costs many residuals, so that it serves in the steps of time after it.
-    engesser : bool
-        Whether the tension acts along the slope of the axis; else along the section's normal.
     """
 
     has_dear_tangent: ClassVar[bool] = False
+    """Whether one costs many residuals, so that it serves in the steps of time after it."""
 
     def __init__(
         self,
@@ -80,7 +71,7 @@ class Continuum(Kinematics):
         engesser: bool = False,
     ) -> None:
         super().__init__(slenderness, bending, axial, blade, shear)
-        self.engesser = engesser
+        self.engesser = engesser  # tension along the slope of the axis, not the section's normal
         self._axial = self.weights * evaluated(blade.axial, self.points) if engesser else None
         # One point more integrates the square of the integrated interpolant exactly.
         count = 2 * self._across.a_panel + 1
@@ -97,6 +88,7 @@ class Continuum(Kinematics):
         along, dx = blade.quadrature(count)
         integral = self.grid.integral(along)
         self._drag = air * integral.T @ (dx[:, None] * integral) if air else None
+        # What is beyond each Gauss point, times its weight: a load acts on one of them.
         self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
 
     def _fields(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> _Fields:

@@ -20,19 +20,6 @@ class Kinematics:
     θ = Σ c_k φ_k with φ_k(0) = 0, and the strains are e + iγ = Σ d_k Ψ_k, with √μ ψ_k for e and
     then i√(μ/σ) ψ_k for γ: orthonormal in the blade's own stiffness, their moments and forces
     polynomials. Samples in time come first in every array.
-
-    Attributes
-    ----------
-    slenderness : float
-        μ.
-    bending, axial, shear, size : int
-        Number of functions for θ, for e and for γ, as many on each of the blade's panels, and of
-        all. Those for γ are those for e, or none.
-    shear_ratio : float or None
-        σ, shear over axial stiffness; None if sections stay normal to the axis.
-    blade : UnitBlade
-    points, weights : ndarray (points,)
-        The Gauss points at which fields are evaluated, and their weights; 2 bending on one cell.
     """
 
     def __init__(
@@ -43,20 +30,18 @@ class Kinematics:
         blade: UnitBlade,
         shear: float | None = None,
     ) -> None:
-        self.slenderness = slenderness
+        self.slenderness = slenderness  # μ
+        # Functions for θ, e and γ, as many on each of the blade's panels.
         self.bending = bending
         self.axial = axial
         self.shear = 0 if shear is None else axial
-        self.shear_ratio = shear
+        self.shear_ratio = shear  # σ, shear over axial stiffness; None of normal sections
         self.size = bending + axial + self.shear
         self.blade = blade
         self._across = shape_functions(blade, bending)
         self._along = shape_functions(blade, axial, "axial")
-        if (self._across.count, self._along.count) != (bending, axial):
-            raise ValueError(
-                f"{bending} and {axial} functions do not go on {blade.panel_count} panels"
-            )
         more = 0 if blade.cells.size == 2 else _MORE
+        # Fields are evaluated at Gauss points, 2 bending on one cell.
         self.grid = blade.grid(2 * self._across.a_panel, more, of_fields=True)
         self.points, self.weights = self.grid.points, self.grid.weights
         self._phi, self._psi = self._bases(self.points)

@@ -48,13 +48,7 @@ class Space:
     """Galerkin discretization of L2 by at least so many shape functions for w and for φ each.
 
     The theory tells whether there are the second line of L2, and inertia of the twist, as in space.
-
-    Attributes
-    ----------
-    twist : str
-        Kind of twist.
-    size, functions : int
-        Number of coordinates, and of those of w, which come first.
+    The coordinates of w come first.
     """
 
     def __init__(self, blade: AnyBlade, functions: int, theory: Theory = BERNOULLI_EULER) -> None:

@@ -24,7 +24,7 @@ from ..beam.state import Driven
 from ..space.continuum import SpaceContinuum
 
 _STAGES = 8
-_CREDIT = 3  # failures, before a tangent of the steps before is no longer tried
+_CREDIT, _MOST_CREDIT = 3, 10  # failures, before a tangent of the steps before is no longer tried
 
 _MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
 
@@ -141,7 +141,7 @@ def integrated(
             continue
         acceleration, previous = found.z, h
         if factors is not None:
-            credit += 1 if found.factors is factors else -1
+            credit = min(credit + 1, _MOST_CREDIT) if found.factors is factors else credit - 1
         factors = found.factors if credit > 0 else None
         before = -np.inf if begin == grid[0] else begin  # the first step has its start as well
         inside = slice(*np.searchsorted(time, (before, end), side="right"))

@@ -136,13 +136,7 @@ _space = lru_cache(maxsize=32)(Space)
 
 
 def settled_functions(blade: AnyBlade, planar: SteadyBeam, theory: Theory) -> int:
-    """Return how many functions settle the flap modes; rotation bends them in a layer at the clamp.
-
-    Raises
-    ------
-    ValueError
-        If they do not settle, for the blade turns too fast.
-    """
+    """Return how many functions settle the flap modes, which rotation bends in a layer."""
 
     def flap(space: Space) -> FloatArray:
         return np.log(_steady_modes(space, with_points_for(planar, space.functions))[1][:4])
@@ -248,14 +242,6 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:
     It leaves if an orbit of that amplitude, or one of a few smaller ones, grows out of the plane by
     0.01 per radian. `stability_limit` gives the limit, which takes several times as long. A damped
     blade, or one without a known section out of the plane, gives "" too.
-
-    Parameters
-    ----------
-    blade : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    amplitude : float
-        Peak |q|/L of the motion, about that of an orbit of the first mode.
     """
     require_planar(blade)
     unit = blade.unit

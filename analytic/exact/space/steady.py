@@ -106,16 +106,12 @@ class SpaceBlade(AtConstantRate):
     @cached_property
     def push(self) -> FloatArray | None:
         """The load, as `model.residual` takes it."""
-        if not self._is_loaded:
+        if not (self.load or self.lift):
             return None
         result = self.model.push(np.zeros(1, dtype=complex), "mass", self.lift)
         if self.load:
             result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
         return result
-
-    @property
-    def _is_loaded(self) -> bool:
-        return bool(self.load or self.lift)
 
     @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
@@ -140,7 +136,7 @@ class SpaceBlade(AtConstantRate):
             return found
         unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
-        straight = unit.half_turn and unit.mirrored and not self._is_loaded
+        straight = unit.half_turn and unit.mirrored and self.push is None
         whole = max(self.rate / LONGEST, self._loaded)
         q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
         step = longest = 1.0 / max(whole, 1.0)
@@ -151,7 +147,7 @@ class SpaceBlade(AtConstantRate):
                     return found
                 q, reached, step = found, share, min(1.5 * step, longest)
             elif share == 0.0 or step < _SHORTEST * longest:
-                load = f" and at {share:.4g} of the load" if self._is_loaded else ""
+                load = f" and at {share:.4g} of the load" if self.push is not None else ""
                 raise ValueError(
                     f"the steady state ends or becomes unstable at w_bar = {share * self.rate:.4g}"
                     f"{load}, before w_bar = {self.rate:.4g}: rotate slower, or load it less"
@@ -163,7 +159,7 @@ class SpaceBlade(AtConstantRate):
     @property
     def _loaded(self) -> float:
         """Angle by which the load bends or twists the softest section's blade, about."""
-        if not self._is_loaded:
+        if self.push is None:
             return 0.0
         own = self.model.functions
         soft = own.blade.flexibility(self.model.points, own.theory, own.slenderness)[:, 3:, 3:]

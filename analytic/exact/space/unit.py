@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...arrays import FloatArray
+from ...arrays import FloatArray, Profile
 from ...parts import STRAIGHT, Line, Offset, scaled
-from ...profiles import Profile, evaluated
+from ...profiles import evaluated
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
 from ...station_section import StationSection

@@ -11,7 +11,7 @@ from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
-from ...runs.attributes import Frame
+from ..lazily import Frame
 from .ancf3 import Ancf3
 from .cable import Cable, SpaceCable
 from .formulation import Chain, Formulation
@@ -25,9 +25,6 @@ _ELEMENTS: tuple[type[Formulation], ...] = (
 
 FORMULATIONS = {cls.name: cls for cls in _ELEMENTS}
 """The class of each formulation, in the plane or in space; its fields are its options."""
-
-ALIASES = {"reissner": "exact"}
-"""Other names of formulations: "exact" is Reissner's beam, not the exact continuum."""
 
 
 def formulation(
@@ -48,7 +45,6 @@ def formulation(
                 f"Exact(nodes=3), got {shown(element)}"
             )
         return element
-    element = ALIASES.get(element, element)
     if element not in FORMULATIONS:
         names = ", ".join(map(repr, FORMULATIONS))
         raise ValueError(f"unknown element {element!r}; known are {names}")
@@ -118,7 +114,7 @@ def _any_of(able: Callable[[type[Formulation]], bool]) -> str:
 
 
 __all__ = [
-    "ALIASES", "FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
+    "FORMULATIONS", "Ancf3", "Cable", "Chain", "Exact",
     "Formulation", "Linear", "SpaceCable", "SpaceExact", "Substructures", "formulation",
     "require_joint", "require_modeled",
 ]  # fmt: skip

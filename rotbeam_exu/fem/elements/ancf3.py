@@ -120,16 +120,10 @@ class Ancf3(Sheared, SectionSlopeNodes):
         shear = self.shear_share
         d = np.zeros((*EA.shape, 6, 6))
         for i, j, value in (
-            (0, 0, plane * EA),
-            (0, 2, plane * EI),
-            (0, 3, plane * nu * EA),
-            (1, 1, plane * EI),
-            (2, 2, plane * 1.8 * EI**2 / EA),
-            (2, 3, plane * nu * EI),
-            (3, 3, plane * EA),
-            (4, 4, shear * EA),
-            (5, 5, shear * EI),
-        ):
+            (0, 0, plane * EA), (0, 2, plane * EI), (0, 3, plane * nu * EA), (1, 1, plane * EI),
+            (2, 2, plane * 1.8 * EI**2 / EA), (2, 3, plane * nu * EI), (3, 3, plane * EA),
+            (4, 4, shear * EA), (5, 5, shear * EI),
+        ):  # fmt: skip
             d[..., i, j] = d[..., j, i] = value
         return d
 
@@ -193,11 +187,8 @@ def _axis_vectors(length: float) -> FloatArray:
 
 
 def _mass(mesh: Mesh) -> FloatArray:
-    """Mass matrices (elements, 12, 12), Eq. 9, with ρI for the slopes.
-
-    Five points are exact for sections that vary as those of a taper do, by x⁴ at most.
-    """
-    xi, weights = gauss_points(5)
+    """Mass matrices (elements, 12, 12), Eq. 9, with ρI for the slopes."""
+    xi, weights = gauss_points(5)  # exact for tapers, whose sections vary by x⁴ at most
     section, values = mesh.sections_at(xi), lagrange(xi, 2)
     mass = np.zeros((mesh.elements, 3, 2, 3, 2))  # nodes, r or r_y
     for kind, density in enumerate((section.mass_per_length, section.rotary_inertia)):

@@ -162,8 +162,7 @@ def _integrated(
 ) -> FloatArray:
     """Return ∫(EA stretching + EI bending) dx, (samples,), as Exudyn integrates.
 
-    A row is positions and slopes, (samples, nodes, 2, ...). The integrands take the first
-    derivative of each row, that of bending the second after it.
+    Of rows of positions and slopes (samples, nodes, 2, ...), by their first and second derivatives.
     """
     ends = [np.concatenate((row[:, :-1], row[:, 1:]), axis=2) for row in rows]
 

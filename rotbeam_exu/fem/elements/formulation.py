@@ -155,14 +155,22 @@ class Formulation(Described, abstract=True):
         """Return the directions (m, n) of the root's coordinates that the clamp holds at rest."""
         return np.eye(root.size)[list(self.clamped)]
 
-    def clamp(self, root: FloatArray, angle: float) -> tuple[FloatArray, FloatArray]:
-        """Return C (m, n) and d (m,) of the constraints C e = d that turn the root by θ.
+    def clamp(self, root: FloatArray) -> Callable[[float], tuple[FloatArray, FloatArray]]:
+        """Return the function of θ that gives C (m, n) and d (m,) of constraints C e = d.
 
-        From its reference coordinates `root` (n,).
+        They turn the root by θ from its reference coordinates `root` (n,).
         """
         held = self.held(root)
-        turned = self.turned(held[:, None], np.full(len(held), angle))[:, 0]
-        return turned, held @ (root + angle * self.angles)
+        once = held @ self.quarter_turn.T
+        twice = once @ self.quarter_turn.T
+        start, ahead = held @ root, held @ self.angles
+
+        def at(angle: float) -> tuple[FloatArray, FloatArray]:
+            turn = self.pace * angle
+            rows = held + np.sin(turn) * once + (1.0 - np.cos(turn)) * twice
+            return rows, start + angle * ahead
+
+        return at
 
     def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
         """Return coordinates and rates (nodes, n) of a beam in `state`, a BeamState.

@@ -119,7 +119,7 @@ class SpaceExact(Sheared, FrameNodes):
     ) -> None:
         """Add the inertial forces of the rotating frame on the Euler parameters."""
         row = _Row(self, beam, len(chain.nodes) - 1)
-        add = Assembly(len(row.mass), inner=1, per_node=7)
+        add = row.add
 
         def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:
             w, w_dot = rotation.rate(t), rotation.acceleration(t)
@@ -149,16 +149,13 @@ class SpaceExact(Sheared, FrameNodes):
         self, beam: AnyBlade, mass: Any, turning: Any, coordinates: FloatArray,
         velocities: FloatArray, rate: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
-        """Return both for velocities and turning rates linear over the elements."""
-        row = _Row(self, beam, coordinates.shape[-2] - 1)
-        r, v = (np.stack((e[:, :-1, :3], e[:, 1:, :3])) for e in (coordinates, velocities))
-        m = row.mass[:, None]
-        _, spin, inertia = row.turning(*(_by_element(e) for e in (coordinates, velocities)))
+        """Return both, of sections whose turning rates are linear over the elements."""
+        row, states = _Row(self, beam, coordinates.shape[-2] - 1), (coordinates, velocities)
+        _, spin, inertia = row.turning(*(row.add.gather(e.reshape(len(e), -1)) for e in states))
         moment = (inertia @ spin[..., None])[..., 0]
-        kinetic = 0.5 * _linear(v, m * v) + 0.25 * np.sum(spin * moment, axis=(1, 2, 3))
-        around = np.cross([0.0, 0.0, 1.0], r)
-        momentum = _linear(around, m * v) + 0.5 * np.sum(moment[..., 2], axis=(1, 2))
-        return row.length * kinetic, row.length * momentum
+        kinetic, momentum = super().energy_and_momentum(beam, mass, turning, *states, rate)
+        kinetic += 0.25 * row.length * np.sum(spin * moment, axis=(1, 2, 3))
+        return kinetic, momentum + 0.5 * row.length * np.sum(moment[..., 2], axis=(1, 2))
 
 
 _TURNS = [3, 4, 5, 6, 10, 11, 12, 13]
@@ -184,6 +181,7 @@ class _Row:
         EA, GA, GA, GJ, EI out of the plane and EI in it.
     inertia : ndarray (elements, 3)
         ρI_p, ρI out of the plane and ρI in it [kg m].
+    add : Assembly
     """
 
     def __init__(self, element: SpaceExact, blade: AnyBlade, elements: int) -> None:
@@ -202,6 +200,7 @@ class _Row:
         _, about = unit.inertia_about(x, Theory(rotary_inertia=True), blade.slenderness)
         means = weights @ np.diagonal(about).reshape(elements, -1, 3)
         self.inertia = blade.mass_per_length * blade.length**2 * means
+        self.add = Assembly(elements, inner=1, per_node=7)
         self._unloaded = self._screws(self.reference)
 
     def strains(self, coordinates: FloatArray) -> FloatArray:
@@ -265,20 +264,6 @@ class _Row:
 
 _VALUES = np.stack((1.0 - _INNER, _INNER), axis=1)
 """Linear functions of both nodes at the Gauss points, (points, nodes)."""
-
-
-def _by_element(coordinates: FloatArray) -> FloatArray:
-    """Return coordinates (..., nodes, 7) of the elements, (..., elements, 14)."""
-    return np.concatenate((coordinates[..., :-1, :], coordinates[..., 1:, :]), axis=-1)
-
-
-def _linear(left: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the sums (samples,) over elements of unit length of ∫ left·right.
-
-    Of vectors at both ends (2, samples, elements, 3), linear in between.
-    """
-    (a, b), (c, d) = left, right
-    return np.asarray(np.sum((a + b) * (c + d) + a * c + b * d, axis=(1, 2)) / 6.0)
 
 
 def _rotation_vector(turn: FloatArray) -> FloatArray:
