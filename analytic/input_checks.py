@@ -165,6 +165,9 @@ def float_array(name: str, values: object, unit: str = "") -> FloatArray:
         array = np.asarray(values)
     except (TypeError, ValueError):  # ragged
         array = np.array(None)
+    if isinstance(values, np.ma.MaskedArray):  # NumPy would take what is hidden for numbers
+        remedy = "leave out what is masked, by .compressed()"
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got a masked array: {remedy}")
     fractions = array.dtype.kind == "O" and all(isinstance(item, Real) for item in array.flat)
     if array.size and array.dtype.kind not in "fiu" and not fractions:
         raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")

@@ -118,6 +118,8 @@ def test_points_are_put_on_the_ends_within_round_off():
 
 
 def test_the_doors_of_the_exact_beam(beam):
+    with pytest.raises(TypeError, match=r"got a masked array: .* by \.compressed\(\)"):
+        periodic_orbits(beam, 4.0, np.ma.array([0.1, 0.2], mask=[False, True]))
     backbone = periodic_orbits(beam, 4.0, [0.1])
     with pytest.raises(ValueError, match="phase must be finite"):
         backbone.state(0, 1.0, np.nan)
