@@ -74,7 +74,7 @@ class LeavingBranch(SpaceOrbitSet, Branch):
     --------
     >>> from analytic import Beam, backbone
     >>> oval = Beam.reference().with_section_out_of_plane(0.9, 0.8)
-    >>> found = backbone(oval, omega=0.0, functions=8).leaving(0.3, 0.4, points=3)
+    >>> found = backbone(oval, omega=0.0, functions=6).leaving(0.3, 0.4, points=3)
     >>> print(f"born at a = {found.born.amplitude:.5f}, a whirl: {found.mirror}")
     born at a = 0.35808, a whirl: True
     >>> axes = found.plot()
