@@ -114,7 +114,7 @@ def test_the_strip_buckles_at_once():
     ],
 )
 def test_a_kick_as_small_as_1e_6_is_known_to_fewer_digits(case, same, most, first, last):
-    """It grows a hundred thousand times, and round-off with it."""
+    """It buckles faster, into waves that are short for so few functions."""
     tables = [f"exact_{case}_{functions}" for functions in (32, 40)]
     difference = three_codes.apart(*tables)
     until = round(100 * same)
