@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 HERE = Path(__file__).parent
-CODES = {"exact": "exact_72", "Exudyn": "exudyn_128", "MuJoCo": "mujoco_64"}
-COARSER = {"exact_56": "k-", "exact_48": "k:"}
-"""The exact blade with fewer functions and other steps and tolerances."""
+CODES = {"exact": "exact_88", "Exudyn": "exudyn_128", "MuJoCo": "mujoco_64"}
+COARSER = {"exact_72": "k-", "exact_56": "k:"}
+"""The exact blade with fewer functions, by other steps."""
 
 
 def history(table: str) -> NDArray[np.void]:
