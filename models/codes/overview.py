@@ -122,9 +122,10 @@ def costs(of: Iterable[Code]) -> tuple[list[str], list[list[str]]]:
 def figure(of: Iterable[Code]) -> Axes:
     """Draw errors of CASE over CPU time, of timed codes."""
     _, ax = plt.subplots(figsize=(5.0, 3.4), layout="constrained")
+    ax.set_prop_cycle(color=plt.colormaps["tab10"].colors)  # as many as there are codes
     for one, mark in zip((one for one in of if one.is_timed), cycle("os^vD<>PX*ph")):
         (line,) = ax.loglog(*zip(*one.front, strict=True), "-", lw=0.9)
-        ax.loglog(*zip(*one.runs, strict=True), mark, ms=4, color=line.get_color(), label=one.name)
+        ax.loglog(*zip(*one.runs, strict=True), mark, ms=5, color=line.get_color(), label=one.name)
     ax.set(xlabel="CPU time over that of the starter", ylabel="error of q(t) over max|q|")
     ax.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     return ax
