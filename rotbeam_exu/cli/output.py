@@ -92,9 +92,16 @@ def print_columns(
         console.print(Text(title, style="italic"), soft_wrap=False)
     if console.measure(table, options=console.options.update_width(10_000)).maximum > console.width:
         # Rich does not know how long words are where it shrinks columns, and breaks numbers.
+        table.padding = (0, 0)
+        least = 1 + len(columns)
         for name, column, cells in zip(columns, table.columns, texts, strict=True):
+            longest = max(map(len, " ".join([name, *cells]).split()))
+            least += longest
             if column.justify == "right":
-                column.width = max(map(len, " ".join([name, *cells]).split()))
+                column.width = longest
+            else:
+                column.min_width = longest
+        console.width = max(console.width, least)
     console.print(table, soft_wrap=False)
 
 

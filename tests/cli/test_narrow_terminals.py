@@ -30,6 +30,8 @@ def test_no_number_is_cut_or_broken(call, monkeypatch, command):
 
     assert words(wide) == words(narrow)
     assert max(map(len, narrow.splitlines())) <= 80
+    monkeypatch.setenv("COLUMNS", "40")
+    assert words(call(*command)[1]) == words(wide)
 
 
 def test_the_verdict_tables(call, monkeypatch):
