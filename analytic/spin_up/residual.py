@@ -176,7 +176,7 @@ def residual_amplitude(
 def modes_for(beam: AnyBlade, spin_up: SpeedChange, count: int) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
     require_planar(beam)
-    # A little more than needed, lest a hair's breadth makes a new one.
+    # Rounded up, so that nearly equal speeds share one series.
     top = max(1.0, math.ceil(10.0 * spin_up.fastest / beam.frequency_scale) / 10.0)
     return modes_over_speed(beam.unit, top, count)
 
