@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 HERE = Path(__file__).parent
-CODES = {"exact": "exact_88", "Exudyn": "exudyn_128", "MuJoCo": "mujoco_64"}
-COARSER = {"exact_72": "k-", "exact_56": "k:"}
+CODES = {"exact": "exact_112", "Exudyn": "exudyn_128", "MuJoCo": "mujoco_64"}
+COARSER = {"exact_88": "k-", "exact_56": "k:"}
 """The exact blade with fewer functions, by other steps."""
 
 

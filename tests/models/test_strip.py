@@ -66,11 +66,11 @@ def farthest(code, until=1.5):
 
 
 def test_how_far_the_exact_tip_is_known():
-    """By 72 functions, and by 56 with steps up to 5 ms and looser tolerances."""
+    """By 88 and 72 functions, and by 56 with steps up to 5 ms and looser tolerances."""
     assert farthest("exact_56", 0.7) < 1e-9
-    assert farthest("exact_72", 1.0) < 2e-9
-    assert farthest("exact_72", 1.31) < 1e-6 < farthest("exact_72", 1.32)
-    assert farthest("exact_72") == pytest.approx(2.16e-6, rel=0.01)
+    assert farthest("exact_88", 1.0) < 3e-10
+    assert farthest("exact_88") == pytest.approx(6.83e-7, rel=0.01)
+    assert farthest("exact_72") == pytest.approx(1.75e-6, rel=0.01)
     # Sixteen functions more leave half of the error at most.
     for until in (1.0, 1.1, 1.25, 1.5):
         assert farthest("exact_56", until) > 2.0 * farthest("exact_72", until)
