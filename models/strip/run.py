@@ -7,11 +7,12 @@ rest, 8 mm out of the plane in its first flap mode. No code has the trapeze effe
 
 The tables of 112 and 88 functions took half of the time, 17 and 10 minutes of CPU: they go on from
 the state of ``exact 72`` at 0.55 s, with half as many functions in lag (64 and 56) and fewer in
-torsion (84 and 72) and along the axis (34 and 30), by steps of 2 ms, 1.25 ms from 1 s on, and 0.6 ms
-from 1.25 s on.
+torsion (84 and 72) and along the axis (34 and 30), by steps of 2 ms, 1.25 ms from 1 s on, and
+0.6 ms from 1.25 s on.
 
-Two other cases start 1e-6 L out of the plane, by the exact blade alone: ``exact 40 2.5e-3 small``
-and ``exact 32 2.5e-3 small``, and the same of ``mildest``.
+Two other cases start 1e-6 L out of the plane, by the exact blade alone: ``exact 88 2e-3 small`` and
+``exact 72 2e-3 small``, which go on from 56 functions at 0.6 s in the same way, and ``exact 40
+2.5e-3 mildest`` and ``exact 32 2.5e-3 mildest``.
 """
 
 import sys

@@ -41,7 +41,7 @@ def test_the_table_is_what_spin_up_response_says(end, tolerance):
     ("functions", "case", "rows", "near"),
     [
         ("56", "", 26, 1e-9),
-        ("40", "small", 26, 1e-9),
+        ("56", "small", 26, 1e-9),
         ("40", "mildest", 26, 1e-9),
         # Into the buckling, by other steps and tolerances than the table's.
         pytest.param("56", "", 76, 2e-9, marks=pytest.mark.slow),
@@ -55,7 +55,8 @@ def test_the_script_writes_the_table_anew(monkeypatch, functions, case, rows, ne
     monkeypatch.setattr(run, "write", lambda code, time, tip, twist: made.update({code: tip}))
     run.exact(functions, "5e-3" if rows == 26 else "1.25e-3", case)
     ((code, tip),) = made.items()
-    table = three_codes.history(code)[:rows]
+    # Up to 0.6 s, that of 88 functions has 56.
+    table = three_codes.history(code.replace("small_56", "small_88"))[:rows]
     places = np.column_stack([table[name] for name in ("along", "lag", "flap")])
     np.testing.assert_allclose(tip, places, rtol=0.0, atol=near)
 
@@ -107,18 +108,19 @@ def test_the_strip_buckles_at_once():
 
 
 @pytest.mark.parametrize(
-    ("case", "same", "most", "first", "last"),
+    ("tables", "same", "most", "first", "last"),
     [
-        ("small", 0.75, [3.04e-4, 0.0174], [0.807, -0.1298], [1.09, -0.3612]),
-        ("mildest", 1.1, [4.55e-5, 1.2e-3], [1.164, -0.0988], [1.4, -0.1723]),
+        (["small_72", "small_88"], 1.09, [2.88e-7, 5.35e-6], [0.807, -0.1297], [1.09, -0.3611]),
+        (["mildest_32", "mildest_40"], 1.1, [4.55e-5, 1.2e-3], [1.164, -0.0988], [1.4, -0.1723]),
     ],
 )
-def test_a_kick_as_small_as_1e_6_is_known_to_fewer_digits(case, same, most, first, last):
-    """It buckles faster, into waves that are short for so few functions."""
-    tables = [f"exact_{case}_{functions}" for functions in (32, 40)]
+def test_a_kick_as_small_as_1e_6(tables, same, most, first, last):
+    """The mildest ramp buckles into waves that are short for so few functions."""
+    tables = [f"exact_{table}" for table in tables]
     difference = three_codes.apart(*tables)
     until = round(100 * same)
-    assert difference[: until + 1].max() < 1e-6 < difference[until + 1]
+    assert difference[: until + 1].max() < 1e-6
+    assert (difference[until + 1 : until + 2] > 1e-6).all()
     histories = [three_codes.history(table) for table in tables]
     twists = np.abs(histories[0]["twist"] - histories[1]["twist"])
     assert [difference.max(), twists.max()] == pytest.approx(most, rel=0.01)
