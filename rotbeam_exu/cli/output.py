@@ -92,8 +92,7 @@ def print_columns(
         console.print(Text(title, style="italic"), soft_wrap=False)
     if console.measure(table, options=console.options.update_width(10_000)).maximum > console.width:
         # Rich does not know how long words are where it shrinks columns, and breaks numbers.
-        table.padding = (0, 0)
-        least = 1 + len(columns)
+        least = 1 + 3 * len(columns)
         for name, column, cells in zip(columns, table.columns, texts, strict=True):
             longest = max(map(len, " ".join([name, *cells]).split()))
             least += longest
@@ -101,7 +100,9 @@ def print_columns(
                 column.width = longest
             else:
                 column.min_width = longest
-        console.width = max(console.width, least)
+        if least > console.width:
+            table.padding = (0, 0)
+            console.width = max(console.width, least - 2 * len(columns))
     console.print(table, soft_wrap=False)
 
 
