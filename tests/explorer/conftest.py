@@ -84,39 +84,30 @@ def context(browser):
 
 @contextmanager
 def pages_of(context):
-    """Give a function that opens a URL and refuses noise: messages, errors, the network.
-
-    A new page is a new process: one that stands empty in its context is taken again.
-    """
+    """Give a function that opens a URL and refuses noise: messages, errors, the network."""
     noise, pages = [], []
 
     def opened(url, *, phone=False, dark=False, motion=False, width=None):
-        within = context(phone, dark, motion, width)
-        page = next((one for one in within.pages if one.url == "about:blank"), None)
-        page = page or within.new_page()
-        listeners = {
-            "console": lambda message: noise.append(message.text),
-            "pageerror": lambda error: noise.append(str(error)),
-            "request": lambda request: (
+        page = context(phone, dark, motion, width).new_page()
+        pages.append(page)
+        page.on("console", lambda message: noise.append(message.text))
+        page.on("pageerror", lambda error: noise.append(str(error)))
+        page.on(
+            "request",
+            lambda request: (
                 None
                 if request.url.startswith((url.split("#")[0], "data:"))
                 else noise.append(request.url)
             ),
-        }
-        pages.append((page, listeners))
-        for event, heard in listeners.items():
-            page.on(event, heard)
+        )
         page.goto(url)
         page.wait_for_selector("html[data-ready]")
         settle(page)
         return page
 
     yield opened
-    for page, listeners in pages:
-        for event, heard in listeners.items():
-            page.remove_listener(event, heard)
-        page.mouse.move(0, 0)
-        page.goto("about:blank")
+    for page in pages:
+        page.close()
     assert noise == []
 
 
