@@ -181,7 +181,7 @@ def test_energy_norm_of_the_coordinates_is_the_elastic_energy():
 
 @pytest.mark.parametrize("shear", [None, 0.3])
 def test_rates_and_gradients_of_a_shape_are_those_of_differences(shear):
-    """Of the tip, the slope, the shear angle; the curvature and e' are derivatives to x."""
+    """Tip, slope and shear angle; the curvature and e' are derivatives to x."""
     model = continuum(1e-2, 6, 5, UNIFORM, shear)
     q, q_dot = 0.3 * np.random.default_rng(4).normal(size=(2, 3, model.size))
     x, h = np.array([0.2, 0.7]), 1e-6

@@ -229,7 +229,7 @@ def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
     expected = 1.0 - found.lambda_omega * found.amplitude**2
     # The next term, κa⁴ with κ = 0.0072.
     assert found.frequency / found.omega_n == pytest.approx(expected, abs=1e-2 * 0.06**4)
-    # Of the extrapolation from 0.02 and 0.04.
+    # Error of the extrapolation from 0.02 and 0.04.
     assert found.lambda_omega_error == pytest.approx(0.0072 * 0.02**2, rel=0.02)
 
 

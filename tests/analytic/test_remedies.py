@@ -75,7 +75,7 @@ def test_a_stocky_beam_is_named_with_the_two_numbers():
         model = reduced_model(unit_beam(1e-3), 1.0, "FrM")
     assert caught[0].filename == __file__
     exact = periodic_orbits(unit_beam(1e-3), 1.0, [0.05])
-    # What the warning says is what is missing: 4μ, and μw̄² of ω_n, both to a tenth.
+    # The warning's numbers are those that are missing: 4μ, and μw̄² of ω_n, both to a tenth.
     assert exact.lambda_omega - model.lambda_omega == pytest.approx(4e-3, rel=0.1)
     assert 1.0 - exact.omega_n / model.omega_n == pytest.approx(1e-3, rel=0.15)
 

@@ -1,4 +1,4 @@
-"""What a run costs in memory, an element over another, and a sweep in time."""
+"""Cost of a run in memory, of an element over another, and of a sweep in time."""
 
 import gc
 import os

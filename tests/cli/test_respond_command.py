@@ -100,18 +100,23 @@ def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path, monkeypatc
     assert seen == [Damping(bending=0.02), Damping(external=0.3)]
 
 
-def test_a_twisted_blade_has_lag_flap_and_twist_of_its_tip(call, tmp_path):
-    config = tmp_path / "blade.toml"
-    config.write_text(
-        f"{BLADE_TOML}out_of_plane = {{ bending_ratio = 0.25, torsion_ratio = 0.3 }}\n"
-        "[blade.line]\ntwist = [0.0, 0.5]\n[blade.damping]\nbending = 0.1\nexternal = 0.1\n"
+def answered(call, folder, section, rest, *options):
+    """Data and text of a blade with more of its section, and more besides, in its file."""
+    config = folder / "blade.toml"
+    config.write_text(f"{BLADE_TOML}out_of_plane = {{ {section} }}\n{rest}")
+    code, out, error = call(
+        "respond", "--config", config, *options, "--points", "2", "--no-figure", "--out", folder
     )
-    code, _, error = call(
-        "respond", "--config", config, "--gravity", "0.5", "--from", "2", "--to", "2.5",
-        "--points", "2", "--functions", "6", "--inextensible", "--no-figure", "--out", tmp_path,
-    )  # fmt: skip
     assert (code, error) == (0, "")
-    data = load(next(tmp_path.glob("*.nc")))
+    return load(next(folder.glob("*.nc"))), " ".join(out.split())
+
+
+def test_a_twisted_blade_has_lag_flap_and_twist_of_its_tip(call, tmp_path):
+    data, _ = answered(
+        call, tmp_path, "bending_ratio = 0.25, torsion_ratio = 0.3",
+        "[blade.line]\ntwist = [0.0, 0.5]\n[blade.damping]\nbending = 0.1\nexternal = 0.1\n",
+        "--gravity", "0.5", "--from", "2", "--to", "2.5", "--functions", "6", "--inextensible",
+    )  # fmt: skip
     assert data["lag"].to_numpy() == pytest.approx(data["amplitude"].to_numpy(), rel=0.05)
     assert (data["lag"] > data["flap"]).all()
     assert (data["flap"] > data["twist"]).all()
@@ -129,18 +134,12 @@ def test_a_twisted_blade_has_lag_flap_and_twist_of_its_tip(call, tmp_path):
 def test_a_known_section_tells_whether_the_response_leaves_the_plane(
     call, tmp_path, polar, sentence
 ):
-    config = tmp_path / "blade.toml"
-    config.write_text(
-        f"{BLADE_TOML}out_of_plane = {{ bending_ratio = 0.01, torsion_ratio = 0.02{polar} }}\n"
-        "[blade.damping]\nbending = 0.01\n"
-    )
-    code, out, error = call(
-        "respond", "--config", config, "--omega", "2", "--tip-force", "0.5", "--from", "2.4",
-        "--to", "2.8", "--points", "2", "--functions", "8", "--no-figure", "--out", tmp_path,
+    data, said = answered(
+        call, tmp_path, f"bending_ratio = 0.01, torsion_ratio = 0.02{polar}",
+        "[blade.damping]\nbending = 0.01\n",
+        "--omega", "2", "--tip-force", "0.5", "--from", "2.4", "--to", "2.8", "--functions", "8",
     )  # fmt: skip
-    assert (code, error) == (0, "")
-    assert re.search(sentence, " ".join(out.split()))
-    data = load(next(tmp_path.glob("*.nc")))
+    assert re.search(sentence, said)
     assert ("growth_rate" in data) == (not polar)
     if not polar:
         assert (data["growth_rate"] > 0.0).to_numpy().tolist() == [False] * 11 + [True] * 3

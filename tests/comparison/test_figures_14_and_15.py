@@ -131,7 +131,7 @@ def test_figure_5_is_fitted_where_its_curve_holds(monkeypatch):
         .to_xarray()
     )
     monkeypatch.setattr(comparison.backbones, "finite_element_points", lambda *_, **__: points)
-    # Of as many functions as it takes these frequencies differ by less than 1e-9.
+    # Frequencies by as many functions as it takes differ from these by less than 1e-9.
     few = partial(periodic_orbits, functions=10)
     monkeypatch.setattr(comparison.backbones, "periodic_orbits", few)
     data = comparison.figure_5()

@@ -88,7 +88,7 @@ class Continuum(Kinematics):
         along, dx = blade.quadrature(count)
         integral = self.grid.integral(along)
         self._drag = air * integral.T @ (dx[:, None] * integral) if air else None
-        # What is beyond each Gauss point, times its weight: a load acts on one of them.
+        # Mass, length, tip beyond each Gauss point, times its weight: a load acts on one of them.
         self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
 
     def _fields(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> _Fields:

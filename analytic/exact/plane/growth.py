@@ -253,7 +253,7 @@ def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:
     try:
         orbits = planar_orbits(blade, omega)
         for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
-            # What the first resolution finds, the finer one confirms.
+            # The finer resolution confirms the first.
             told = a == amplitude or orbits.growth(a).per_radian >= LEAST_GROWTH
             if told and (what := orbits.growth(a, 2)).per_radian >= LEAST_GROWTH:
                 return (
