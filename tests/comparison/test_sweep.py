@@ -176,20 +176,6 @@ def test_numbers_of_numpy_are_numbers(beam, serial, cache):
     assert {path.name for path in cache.glob("*.nc")} == known
 
 
-@pytest.mark.usefixtures("at_once")
-def test_shards_make_the_whole(beam, serial, tmp_path):
-    parts = [
-        sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, shard=(k, 3)) for k in (1, 2, 3)
-    ]
-    done = np.array([(part["verdict"] == "passed").to_numpy() for part in parts])
-    assert done.sum(axis=0).tolist() == [[1, 1], [1, 1]]
-    assert len(list(tmp_path.glob("*.nc"))) == 4
-    merged = xr.where(parts[0]["verdict"] == "passed", parts[0]["frequency"], np.nan)
-    for part in parts[1:]:
-        merged = merged.fillna(part["frequency"])
-    assert np.array_equal(merged, serial["frequency"])
-
-
 class DyingPool(Executor):
     """Finishes its first task, and loses its worker or its scheduler with the second."""
 
@@ -285,11 +271,9 @@ def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
         ({"omegas": []}, "omegas must be a sequence of numbers"),
         ({"ramp_times": [3.0, 2.0, 3.0]}, "ramp_times holds 3 more than once"),
         ({"omegas": [-1.0]}, "omega must not be negative"),
-        ({"shard": (5, 4)}, "shard 5/4: the part must be between 1 and 4"),
         ({"on_error": "ignore"}, "unknown on_error 'ignore'"),
         ({"jobs": -1}, "jobs must be at least 1"),
         ({"jobs": True}, "jobs must be a whole number, got True"),
-        ({"shard": (1.5, 4)}, r"shard must be a whole number, got 1\.5"),
         ({"duration": 2.5}, "duration 2.5 s ends before .* begins at ramp_time 3 s; take a longer"),
         ({"element": "brick"}, "unknown element 'brick'"),
         ({"element": Cable}, "element must be the name of a formulation, or an instance"),
