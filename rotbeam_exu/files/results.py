@@ -237,31 +237,6 @@ def whole_file(target: Path) -> Iterator[Path]:
         partial.unlink(missing_ok=True)
 
 
-@contextmanager
-def whole_folder(target: Path) -> Iterator[Path]:
-    """Give a folder to write into; move all of it to `target` at the end, or nothing on a failure.
-
-    `target` is new, or a folder that has nothing of the same name.
-    """
-    above = target.absolute().parent
-    try:
-        above.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{target.name}-", dir=above) as aside:
-            made = Path(aside, "made")
-            made.mkdir()
-            yield made
-            if target.exists() and any(target.iterdir()):
-                for one in sorted(made.iterdir()):
-                    one.rename(target / one.name)
-                return
-            if target.exists():
-                target.rmdir()
-            made.rename(target)
-    except OSError as error:
-        why = f"{error.strerror or error}; choose another folder"
-        raise OSError(f"cannot write to {target.parent}: {why}") from error
-
-
 def writable_folder(path: str | os.PathLike[str]) -> Path:
     """Make the folder if needed and prove that it can be written, before any long work."""
     folder = Path(path)
