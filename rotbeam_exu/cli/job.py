@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from ..files.results import differing_inputs, save, save_tables, whole_file, writable_folder
 from ..lazily import xr
-from .endings import telling_what_is_kept
 from .output import print_written
 
 R = TypeVar("R")
@@ -24,6 +24,16 @@ class UnfinishedError(Exception):
 
     Its cause is the error, its arguments are the part and the word "computed" or "found".
     """
+
+
+@contextmanager
+def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
+    """Let Ctrl-C name the files that stay: `kept` returns them, or an empty text."""
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
+        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
 
 
 def _itself(data: Any) -> Any:

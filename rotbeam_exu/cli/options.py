@@ -20,7 +20,7 @@ from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
 from ..fem.lazily import Frame
-from .endings import telling_what_is_kept
+from .job import telling_what_is_kept
 from .motion import ChosenMotion
 from .output import counter
 

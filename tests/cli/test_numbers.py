@@ -49,27 +49,6 @@ def test_what_would_never_end_is_refused_before_it_starts(call, arguments, sente
     assert sentence in error
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("campbell", "--points"),
-        ("respond", "--gravity", "--damping-ratio", "0.1", "--from", "1", "--to", "2", "--points"),
-        ("ramp", "--points"),
-        ("ramp", "--finite-element-points"),
-        ("animate", "--rate"),
-    ],
-    ids=" ".join,
-)
-def test_what_no_memory_holds_is_one_sentence(call, tmp_path, arguments):
-    """Of 1e14 numbers, which are more than the addresses that a processor has."""
-    out = tmp_path / "film.gif" if arguments[0] == "animate" else tmp_path
-    code, _, error = call(*arguments, str(10**14), "--out", out)
-    assert code == 1
-    assert error.startswith("rotbeam: there is not enough memory (")
-    assert len(error.splitlines()) == 1
-    assert not list(tmp_path.iterdir())
-
-
 def test_a_zero_at_the_end_of_a_number_is_shown_where_its_neighbors_have_a_digit(capsys):
     print_columns({"ω_NL": [3.73033, 3.730329], "a": [0.1, 0.05], "±": [1e-9, math.nan]}, "table")
     rows = [line.split() for line in capsys.readouterr().out.splitlines() if line[0] == "│"]

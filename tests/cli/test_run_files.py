@@ -221,21 +221,3 @@ def test_duration_and_step_of_the_file_reach_animate_and_verify(
 
     monkeypatch.setattr(room, "verify", stopped)
     assert "0.01 8 4" in call("verify", "--element", "cable", "--config", config)[2]
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        ("reference", "--omega", "None"), ("ramp", "--omega=None"),
-        ("sweep", "--omega", "6", "null"), ("sweep", "--duration", "None"),
-        ("campbell", "--omega-max", "NONE"),
-        ("run", "--elements", "none"), ("respond", "--from", "1", "--to", "2", "--ripple", "None"),
-    ],
-    ids=" ".join,
-)  # fmt: skip
-def test_none_is_no_value(call, line):
-    """A script that fills in what it lacks got the paper's number and exit code 0."""
-    code, out, error = call(*line)
-    assert (code, out) == (2, "")
-    assert "must have a value, got" in error
-    assert "leave it out" in error
