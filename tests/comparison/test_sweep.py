@@ -12,7 +12,6 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 import xarray as xr
@@ -127,16 +126,6 @@ def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, cach
     xr.testing.assert_identical(again, serial)
     assert victim.exists()
     assert victim.with_suffix(".damaged").stat().st_size == 1000
-
-
-@pytest.mark.usefixtures("at_once")
-def test_a_number_changed_by_hand_is_not_believed(beam, serial, cache):
-    with h5py.File(min(cache.glob("*.nc")), "r+") as file:
-        file.attrs["amplitude"] = 0.5
-    with pytest.warns(RotbeamWarning, match="was changed after it was written; it is set aside"):
-        again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=cache)
-    xr.testing.assert_identical(again, serial)
-    assert len(list(cache.glob("*.damaged"))) == 1
 
 
 def test_a_failed_case_stays_on_record_with_its_sentence(beam, tmp_path):
