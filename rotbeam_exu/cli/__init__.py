@@ -74,9 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     write_utf8()
     with warnings.catch_warnings(), _ctrl_c_noted() as met:
         warnings.simplefilter("default", RotbeamWarning)  # the same sentence once
-        warnings.showwarning = lambda message, *_: print_message(  # type: ignore[assignment]
-            "warning:", "yellow", str(message)
-        )
+        warnings.showwarning = lambda message, *_: print_message("warning:", "yellow", str(message))
         try:
             app(arguments, exit_on_error=False, print_error=False)
             sys.stdout.flush()
