@@ -53,7 +53,7 @@ def test_the_papers_beam_is_shown_in_real_time(call, monkeypatch, tmp_path):
 def test_a_single_picture_is_refused_and_the_remedy_works(call, monkeypatch, tmp_path):
     code, out, _ = film(call, monkeypatch, tmp_path, "--rate", "1", "--duration", "0.4")
     assert code == 2
-    assert "take a rate or a slow motion 5 times as large" in out
+    assert "take a rate 5 times as large" in out
     assert film(call, monkeypatch, tmp_path, "--rate", "5", "--duration", "0.4")[0] == 0
 
 
