@@ -18,9 +18,7 @@ from analytic import (
     forced_response,
 )
 from rotbeam_exu import SimulationError, load, save, simulate
-from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.case import RunCase
-from rotbeam_exu.fem.solver import exudyn_system
 from rotbeam_exu.runs.attributes import loads_of
 from rotbeam_exu.runs.check import check_run, remedy
 
@@ -114,22 +112,6 @@ def test_a_run_tells_its_loads(beam, tmp_path):
     ]
     assert len(set(keys)) == len(keys)
     assert loads_of(simulate(beam, **options, duration=5.0).attrs) == ()
-
-
-def test_a_system_of_ones_own_takes_loads(beam, solve_as_a_user):
-    """In SI units, with the user's own settings of the solver."""
-    blade, rotation = by_mass(beam, 0.1), SteadyRotation(omega=2.0)
-    run = simulate(blade, rotation, elements=4, duration=3.0, step=4e-3, loads=ALL)
-    with exudyn_system() as mbs:
-        numbers = add_rotating_beam(mbs, blade, rotation, elements=4, loads=ALL)
-        for node in numbers.nodes:
-            x = mbs.GetNodeParameter(node, "referenceCoordinates")[0]
-            rate = 2.0 + ALL[1].amplitude
-            mbs.SetNodeParameter(node, "initialVelocities", [0.0, rate * x, 0.0, rate])
-        mbs.Assemble()
-        stored = solve_as_a_user(mbs, numbers.tip_sensor, end=3.0, steps=750, period=3.0)
-    end = run.isel(time=-1)
-    assert stored[-1, 1:3] == pytest.approx([end["tip_x"].item(), end["tip_y"].item()], abs=1e-5)
 
 
 def settling(blade, response, i, nu, cycles, steps, elements):
