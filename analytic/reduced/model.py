@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, NumbersT, lone_as_float
 from ..beam import AnyBlade
 from ..input_checks import finite_array, finite_number, not_negative, whole_number
 from ..warning import warn
@@ -112,12 +111,12 @@ class ReducedModel:
             return self.perturbation.largest_amplitude
         return self.oscillator.largest_perturbed_amplitude
 
-    def frequency(self, a: ArrayLike) -> Any:
+    def frequency(self, a: NumbersT) -> NumbersT:
         """Return ω_NL = ω_n (1 - λ_ω a²) [rad/s], Eq. 63, and of FrM5 with its -κ a⁴.
 
         Parameters
         ----------
-        a : array_like
+        a : float or ndarray
             Amplitude a0 of the first harmonic over L, in 0 .. 1; the result has its shape.
 
         Raises
@@ -137,7 +136,8 @@ class ReducedModel:
         else:
             result *= -self.lambda_omega * self.omega_n
         result += self.omega_n
-        return result if result.ndim else float(result)
+        found: NumbersT = lone_as_float(result)
+        return found
 
     def peak(self, a: ArrayLike) -> FloatArray:
         """Return the peak of q/L of the first harmonic `a`, of its shape; see `response`."""
@@ -147,15 +147,16 @@ class ReducedModel:
         """Return the first harmonic of q/L that has the `peak`, of its shape: `peak` inverted."""
         return self.perturbation.first_harmonic(finite_array("peak", peak))
 
-    def exact_frequency(self, a: ArrayLike) -> Any:
+    def exact_frequency(self, a: NumbersT) -> NumbersT:
         """Return the exact frequency of Eq. 41 [rad/s], by its first integral.
 
         Its distance from `frequency` is the error of the perturbation, of order a⁴. Parameters and
         errors as in `frequency`, but `a` is the peak of x.
         """
         amplitude = self._within(a, self.oscillator.largest_amplitude, _NO_ORBIT)
-        result = self.beam.frequency_scale * self.oscillator.exact_frequency(amplitude)
-        return result if result.ndim else float(result)
+        exact = self.oscillator.exact_frequency(amplitude)
+        found: NumbersT = lone_as_float(self.beam.frequency_scale * exact)
+        return found
 
     def response(self, t: ArrayLike, a0: float, phase: float = 0.0) -> FloatArray:
         """Return x(t) = q/L of Eq. 65, of the shape of `t`; of FrM with its second harmonic.
