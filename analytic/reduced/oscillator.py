@@ -24,7 +24,7 @@ _MARGIN = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Oscillator:
-    """Eq. 41 with numbers for its coefficients: ω_n over √(EI/mL³), g1 and g2."""
+    """Eq. 41 with its coefficients: ω_n over √(EI/mL³), g1 and g2."""
 
     w_n: float
     g1: float
@@ -33,12 +33,12 @@ class Oscillator:
     @property
     def lambda_omega(self) -> float:
         """λ_ω of Eq. 64 = g2/4 - 3 g1/(8 ω_n²) [-]; positive softens."""
-        return self.g2 / 4.0 - 3.0 * self.g1 / (8.0 * self.w_n**2)
+        return self.g2 / 4 - 3 * self.g1 / (8 * self.w_n**2)
 
     @property
     def lambda_x(self) -> float:
         """λ_x of Eq. 65 = g2/16 - g1/(32 ω_n²) [-]."""
-        return self.g2 / 16.0 - self.g1 / (32.0 * self.w_n**2)
+        return self.g2 / 16 - self.g1 / (32 * self.w_n**2)
 
     @property
     def largest_perturbed_amplitude(self) -> float:
