@@ -41,11 +41,6 @@ class Oscillator:
         return self.g2 / 16 - self.g1 / (32 * self.w_n**2)
 
     @property
-    def largest_perturbed_amplitude(self) -> float:
-        """Amplitude from which on Eq. 63 has no positive frequency; may be infinite."""
-        return 1.0 / math.sqrt(self.lambda_omega) if self.lambda_omega > 0.0 else math.inf
-
-    @property
     def largest_amplitude(self) -> float:
         """Amplitude below which every orbit is periodic; may be infinite.
 
@@ -87,13 +82,6 @@ class Oscillator:
             total += (a * math.cos(psi)) ** 2 * p
         return total / count
 
-    def orbit(self, a: float, n: int) -> tuple[FloatArray, FloatArray]:
-        """Return x and ẋ, each (n,), once around the orbit through (a, 0); the ends coincide."""
-        psi = np.linspace(0.0, 2.0 * np.pi, n)
-        x = a * np.cos(psi)
-        stiffness = self.w_n**2 + 0.5 * self.g1 * (a**2 + x**2)
-        return x, -a * np.sin(psi) * np.sqrt(stiffness / (1.0 + self.g2 * x**2))
-
     def _midpoints(self, square: float) -> int:
         """Midpoints on a quarter period that bring the error exp(-4 n y) below round-off."""
         # y is the distance from the real axis of the nearest ψ where inertia or stiffness under
@@ -123,7 +111,7 @@ class Perturbation:
     lambda_omega: float
     kappa: float = 0.0
     h2: float = 0.0
-    h3: float
+    h3: float = 0.0
 
     @property
     def largest_amplitude(self) -> float:
@@ -131,6 +119,11 @@ class Perturbation:
         roots = np.roots([-self.kappa, -self.lambda_omega, 1.0])
         squares = roots.real[(abs(roots.imag) < 1e-12) & (roots.real > 0.0)]
         return math.sqrt(float(squares.min())) if squares.size else math.inf
+
+    def ratio(self, a: FloatArray) -> FloatArray:
+        """Return ω_NL/ω_n, of the shape of `a`."""
+        square = a * a
+        return 1.0 - square * (self.lambda_omega + self.kappa * square)
 
     def deflection(self, psi: FloatArray, a: FloatArray | float) -> FloatArray:
         """Return q/L at the phases ψ."""
