@@ -11,6 +11,7 @@ Multiplied by ẋ it integrates to ½(1 + g2 x²) ẋ² + ½ω_n² x² + ¼g1 x�
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,13 +60,10 @@ class Oscillator:
         is analytic and periodic: the midpoint rule converges geometrically, at the rate set by its
         nearest singularity in the complex plane.
         """
-        square = a**2
-        count = self._midpoints(float(np.max(square, initial=0.0)))
-        total = np.zeros_like(square)
-        for psi in (np.arange(count) + 0.5) * (0.5 * np.pi / count):
-            x_square = square * math.sin(psi) ** 2
-            stiffness = self.w_n**2 + 0.5 * self.g1 * (square + x_square)
-            total += np.sqrt((1.0 + self.g2 * x_square) / stiffness)
+        count = self._midpoints(float(np.max(a**2, initial=0.0)))
+        total = np.zeros_like(a)
+        for _, inertia, stiffness in self._quarter(a, count):
+            total += np.sqrt(inertia / stiffness)
         return count / total
 
     def action(self, a: FloatArray) -> FloatArray:
@@ -75,12 +73,16 @@ class Oscillator:
         """
         count = 64
         total = np.zeros_like(a)
+        for psi, inertia, stiffness in self._quarter(a, count):
+            total += (a * math.cos(psi)) ** 2 * np.sqrt(inertia * stiffness)
+        return total / count
+
+    def _quarter(self, a: FloatArray, count: int) -> Iterator[tuple[float, FloatArray, FloatArray]]:
+        """Yield midpoints ψ of a quarter period, and what inertia and stiffness are there."""
         for psi in (np.arange(count) + 0.5) * (0.5 * np.pi / count):
             x_square = a**2 * math.sin(psi) ** 2
             stiffness = self.w_n**2 + 0.5 * self.g1 * (a**2 + x_square)
-            p = np.sqrt((1.0 + self.g2 * x_square) * stiffness)
-            total += (a * math.cos(psi)) ** 2 * p
-        return total / count
+            yield psi, 1.0 + self.g2 * x_square, stiffness
 
     def _midpoints(self, square: float) -> int:
         """Midpoints on a quarter period that bring the error exp(-4 n y) below round-off."""
