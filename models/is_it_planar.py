@@ -23,13 +23,15 @@ data = comparison.growth_out_of_plane(
     strip, omegas=np.linspace(0.0, 6.0, 13), amplitudes=np.geomspace(0.01, 0.3, 28)
 )
 ends = {2.0: [0.098, 0.119, 0.166, 0.219, 0.276], 4.0: [0.156, 0.190, 0.268], 6.0: [0.196, 0.231]}
+points = np.transpose([(omega, a) for omega, found in ends.items() for a in found])
 
 # %%
 # :func:`~analytic.stability_limit` finds the amplitude above which all orbits leave the plane. Here
 # are two orbits of the strip, below and above it, and the tube's where the spin-ups to 4 rad/s end:
 limit = planar_stability(strip, 4.0, [0.058, 0.060], damping=0.005)
 round_one = planar_stability(tube, 4.0, ends[4.0])
-figures.growth_out_of_plane(data, spin_ups=ends)
+ax = figures.growth_out_of_plane(data)
+ax.plot(*points, "wo", ms=3.2, mec="black", mew=0.7, clip_on=False)
 print(limit, round_one, sep="\n")
 
 # %%

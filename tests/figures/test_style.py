@@ -48,11 +48,6 @@ def test_the_journal_sets_the_width_and_the_endings(data, tmp_path):
     assert figures.figure_14(data)[0].figure.get_figwidth() == pytest.approx(7.2)
     with figures.style(85):  # of one column [mm]
         assert figures.figure_14(data)[0].figure.get_figwidth() == pytest.approx(176.0 / 25.4)
-    own = figures.Style(columns=190.0, font="DejaVu Serif", formats=("svg",))
-    with figures.style(own):
-        axes = figures.figure_14(data)[0]
-        assert axes.figure.get_figwidth() == pytest.approx(190.0 / 25.4)
-        assert axes.xaxis.label.get_family() == ["DejaVu Serif"]
 
 
 def test_grey_has_no_color_and_tells_lines_apart(data):
