@@ -7,11 +7,9 @@ The only place that knows matplotlib. The data comes from the function of the sa
 
 from __future__ import annotations
 
-import xarray as xr
-
 from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
-from .paper_figure import PAPER_FIGURES
+from .paper_figure import PAPER_FIGURES, caption
 from .results import (
     campbell,
     forced_response,
@@ -30,16 +28,3 @@ __all__ = [
     "figure_15", "forced_response", "growth_out_of_plane", "planar_stability", "residual",
     "save_animation", "save_figure", "softening_map", "spin_up", "style",
 ]  # fmt: skip
-
-
-def caption(number: int, data: xr.Dataset) -> str:
-    """Return a figure's caption: the content, the beam, the paper's claim, and our answer.
-
-    Parameters
-    ----------
-    number : int
-        3, 4, 5, or 8 to 15.
-    data : Dataset
-        The data, as made by the function `figure_...` of `rotbeam_exu.comparison`.
-    """
-    return PAPER_FIGURES[number].caption(data)
