@@ -1,10 +1,8 @@
 """Nothing that was computed is lost: other inputs do not replace it, and failures are kept."""
 
-from dataclasses import replace
-
 import pytest
 
-from rotbeam_exu import figures, load
+from rotbeam_exu import comparison, figures, load
 from rotbeam_exu.fem import simulation
 from rotbeam_exu.runs import oscillation
 from rotbeam_exu.sweeps import grid
@@ -102,8 +100,7 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
     assert code == 130
     assert f"kept: {tmp_path}/cable-2-omega-6-ramp-3.nc" in error
 
-    fourteen = replace(figures.PAPER_FIGURES[14], data=stopped)
-    monkeypatch.setitem(figures.PAPER_FIGURES, 14, fourteen)
+    monkeypatch.setattr(comparison, "figure_14", stopped)
     code, _, error = call("figure", "14", "--cache", tmp_path / "c", "--out", tmp_path)
     assert code == 130
     assert f"finished spin-ups are kept in the cache {tmp_path}/c" in error
@@ -130,7 +127,6 @@ def test_ctrl_c_while_a_figure_is_drawn_says_where_its_data_is(
         raise KeyboardInterrupt
 
     monkeypatch.setattr(figures, drawing, stopped)
-    monkeypatch.setitem(figures.PAPER_FIGURES, 8, replace(figures.PAPER_FIGURES[8], draw=stopped))
     code, _, error = call(*command.split(), "--out", tmp_path)
     assert code == 130
     assert f"kept: {tmp_path}/{name}.nc, {tmp_path}/{name}" in error
