@@ -114,7 +114,8 @@ def test_closed_form_at_both_ends_of_the_paper(beam):
 
 @pytest.mark.parametrize(
     ("omega", "T", "left"),
-    [QUIET[0], *(pytest.param(*one, marks=pytest.mark.slow) for one in QUIET[1:])],
+    # At 4 rad/s a minimum that is there by chance would be believed without a slope.
+    [pytest.param(*one, marks=[] if one[0] == 4.0 else pytest.mark.slow) for one in QUIET],
 )
 def test_quiet_ramp_times(beam, omega, T, left):
     found = quiet_ramp_times(beam, omega, longest=T + 0.2)
