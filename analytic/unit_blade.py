@@ -22,7 +22,7 @@ _STEEPEST = 2.0  # ratio of a stiffness within a cell: by 14 points more its inv
 
 @dataclass(frozen=True, kw_only=True)
 class UnitBlade:
-    """Data of a blade in units of L and the root's m, EI and EA; the default is the uniform beam."""
+    """Data of a blade in units of L and the root's m, EI and EA; by default the uniform beam."""
 
     hub: float = 0.0  # δ = R/L
     setting: float = 1.0  # c = cos ψ
