@@ -43,6 +43,16 @@ def test_a_loaded_run_can_be_done_again_to_the_bit(run, tmp_path):
     assert json.loads(attrs["settings"])["spectral_radius"] == 0.9
 
 
+@pytest.mark.parametrize("name", ["time", "q"])
+def test_a_changed_bit_of_a_number_is_refused(run, tmp_path, name):
+    path = save(run, tmp_path / "run.nc")
+    raw = bytearray(path.read_bytes())
+    raw[raw.index(run[name].to_numpy()[10:20].tobytes()) + 3] ^= 1
+    path.write_bytes(raw)
+    with pytest.raises(ValueError, match="write it again"):
+        load(path)
+
+
 def test_every_variable_has_unit_and_name(run):
     for variable in run.variables.values():
         assert {"units", "long_name"} <= set(variable.attrs)
