@@ -15,7 +15,7 @@ import numpy as np
 from ..verification.cases import CASES, VERSION
 from ..verification.convergence import Order
 from ..verification.judgement import Judgement
-from ..verification.mistakes.mistake import Mistake
+from ..verification.mistakes.histories import Mistake
 from ..verification.outcomes import Finding
 from ..verification.submission import Run, Submission
 from ..verification.submission_files.faults import Fault
