@@ -27,12 +27,8 @@ _MOST_FILES = 10
 _SHOWN = 40
 """Letters of a faulty cell that a sentence repeats."""
 
-
 LARGEST = 100_000_000
 """Bytes of a file that is read; a history of a million samples has less."""
-
-LARGEST_TOML = 32_000
-"""Bytes of entry.toml."""
 
 OUTSIDE = "is a link that leads out of the folder: put what it names in its place"
 
@@ -149,7 +145,7 @@ def files_in(folder: Path, name: str) -> list[str]:
     return [f"{name}/{printable(path.name)}" for path in paths]
 
 
-def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
+def content_of(folder: Path, file: str) -> bytes:
     """Return the bytes of a regular file below a folder.
 
     Raises
@@ -163,24 +159,22 @@ def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
     if place is None:
         raise ValueError(OUTSIDE)
     path = folder / place
-    if path.is_dir():
-        raise ValueError("is a folder: put a file in its place")
     if path.exists() and not path.is_file():
-        raise ValueError("is no regular file but a pipe or a device: put a file in its place")
+        raise ValueError("is a folder, a pipe or a device: put a file in its place")
     with path.open("rb") as opened:
-        content = opened.read(largest + 1)
-    if len(content) > largest:
+        content = opened.read(LARGEST + 1)
+    if len(content) > LARGEST:
         raise ValueError(
-            f"has more than {largest:,} bytes: hand in what the kit asks for, and sample less often"
+            f"has more than {LARGEST:,} bytes: hand in what the kit asks for, and sample less often"
         )
     return content
 
 
-def text_of(folder: Path, file: str, faults: Faults, largest: int = LARGEST) -> str | None:
+def text_of(folder: Path, file: str, faults: Faults) -> str | None:
     """Return the text of a file, its lines ended by LF; None, and why, where it is no text."""
     try:
         # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
-        text = content_of(folder, file, largest).decode("utf-8-sig")
+        text = content_of(folder, file).decode("utf-8-sig")
         if "\0" in text:
             raise ValueError("is not text (it holds zero bytes): write it as UTF-8")
     except UnicodeDecodeError as error:

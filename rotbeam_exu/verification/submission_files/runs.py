@@ -23,8 +23,9 @@ from .tables import (
     TOO_FEW,
     Column,
     Sheet,
-    bounded,
     digits,
+    not_negative,
+    positive,
     rounding,
     rows_of,
     sheet_of,
@@ -54,10 +55,6 @@ _NAME = re.compile(
 _ROUNDED = 1e-2
 """Relative distance of a step or tolerance from that in the name of its file."""
 
-_positive = bounded(lambda value: value > 0.0, "must be positive, in seconds, got {}")
-_tolerance = bounded(lambda value: 0.0 < value < 1.0, "must be between 0 and 1, got {}")
-_cost = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
-
 
 def _history(_: str, cell: str) -> str:
     """Return the name of a history's file."""
@@ -74,9 +71,10 @@ def _history(_: str, cell: str) -> str:
 
 COLUMNS = (
     Column("file", _history), Column("elements", whole),
-    Column("step", _positive, "s", needed=False), Column("tolerance", _tolerance, needed=False),
+    Column("step", positive, "s", needed=False), Column("tolerance", positive, needed=False),
     Column("dof", whole, needed=False),
-    Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
+    Column("wall_s", not_negative, "s", needed=False),
+    Column("cpu_s", not_negative, "s", needed=False),
     FAILURE, Column("remark", text, needed=False),
 )  # fmt: skip
 
