@@ -115,25 +115,23 @@ def _listed(root: Path, faults: Faults) -> Iterator[dict[str, Any]]:
     sheet = sheet_of(root, FILE, COLUMNS, faults)
     seen: dict[tuple[str, int, float], int] = {}
     first: dict[str, str] = {}
-    for line, cells, row in rows_of(sheet, faults) if sheet else ():
-        case, _, name = row["file"].partition("/")
+    for line, _, row in rows_of(sheet, faults) if sheet else ():
+        case, name = row["file"].split("/")
         elements, kind, size = _NAME.fullmatch(name).groups()  # type: ignore[union-attr]
         of, other = ("step", "tolerance") if kind == "h" else ("tolerance", "step")
-        wrong = []
-        if row["elements"] != int(elements):
-            wrong.append(f"elements are {cells['elements']}, the file's name says {int(elements)}")
-        if of not in row or other in row:
-            wrong.append(f"there must be a {of} and no {other}, as the file's name says")
-        elif abs(row[of] - float(size)) > _ROUNDED * float(size):
-            wrong.append(f"{of} is {cells[of]}, the file's name says {float(size):g}")
-        elif first.setdefault(case, of) != of:
-            wrong.append(f"a {of} stands beside a {other} of {case}, which no fit takes together")
-        wrong = [f"{said}: correct one of them" for said in wrong]
         place = case, row["elements"], row.get(of, 0.0)
-        if not wrong and seen.setdefault(place, line) != line:
-            wrong = [f"the same case, mesh and {of} stand in line {seen[place]}: keep one"]
-        if not faults.extend(FILE, [(said, line) for said in wrong]):
+        alike = math.isclose(place[2], float(size), rel_tol=_ROUNDED) and other not in row
+        if row["elements"] != int(elements) or not alike:
+            named = f"{int(elements)} elements and a {of} of {float(size):g}, the row does not"
+            said = f"the file's name says {named}: correct one of them"
+        elif first.setdefault(case, of) != of:
+            said = f"a {of} stands beside a {other} of {case}, which no fit takes together"
+        elif seen.setdefault(place, line) != line:
+            said = f"the same case, mesh and {of} stand in line {seen[place]}: keep one"
+        else:
             yield row | {"case": case}
+            continue
+        faults.add(FILE, said, line)
 
 
 def history_of(
