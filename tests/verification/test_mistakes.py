@@ -10,8 +10,7 @@ from scipy.interpolate import CubicHermiteSpline
 from analytic import SpeedTable, SpinUp, linear_modes, spin_up_response
 from analytic.exact.beam.state import Driven
 from analytic.exact.beam.steady import continuum
-from analytic.theory import BERNOULLI_EULER, Theory
-from rotbeam_exu.verification.cases import CASES, SHEAR
+from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import converged
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in, most_left
@@ -32,8 +31,8 @@ TIME = np.arange(0.0, 6.0, 0.02)
 LENGTH = S1.blade.length
 
 
-def response(motion, time=TIME):
-    return spin_up_response(S1.blade, motion, time, tolerance=1e-4)
+def response(motion, time=TIME, tolerance=1e-4):
+    return spin_up_response(S1.blade, motion, time, tolerance=tolerance)
 
 
 @pytest.fixture(scope="module")
@@ -95,9 +94,8 @@ def ramp(name, omega, ramp_time):
 @pytest.mark.parametrize("name", RAMPS)
 def test_another_ramp(named, name):
     time = TIME[TIME <= 3.0]
-    q = response(ramp(name, 6.0, 3.0), time).q
+    q = response(ramp(name, 6.0, 3.0), time, 1e-2).q
     assert named(q, time) == name
-    assert named(q, time, ramps=()) is None
 
 
 @pytest.mark.parametrize("force", FORCES)
@@ -176,24 +174,24 @@ def test_what_none_of_them_explains_is_left_alone(named, exact):
     ],
 )
 def test_linear_frequencies(change, name):
-    rows = [
-        Row(elements=n, speed=speed, values=(change(first(speed), speed) * (1 + 1e-3 / n**2),))
-        for n in (8, 16)
-        for speed in CASES["L"].speeds
-    ]
-    found = mistake_in_table(CASES["L"], rows, reference(CASES["L"]), 2e-4 / 3.0)
-    assert (found and found.name) == name
+    assert mistake_in_frequencies(change, CASES["L"].speeds) == name
 
 
 def test_frequencies_without_centrifugal_stiffening():
     """At low speeds; faster ones have no frequency at all."""
+    found = mistake_in_frequencies(lambda w, speed: np.sqrt(first(0.0) ** 2 - speed**2), (0.0, 2.0))
+    assert found == "no centrifugal stiffening"
+
+
+def mistake_in_frequencies(change, speeds):
+    """The name of the mistake in frequencies of L that are changed, if there is one."""
     rows = [
-        Row(elements=n, speed=w, values=(np.sqrt(first(0.0) ** 2 - w**2),))
+        Row(elements=n, speed=speed, values=(change(first(speed), speed) * (1 + 1e-3 / n**2),))
         for n in (8, 16)
-        for w in (0.0, 2.0)
+        for speed in speeds
     ]
     found = mistake_in_table(CASES["L"], rows, reference(CASES["L"]), 2e-4 / 3.0)
-    assert found.name == "no centrifugal stiffening"
+    return found and found.name
 
 
 @cache
@@ -239,52 +237,3 @@ def test_a_ramp_is_looked_for_beside_a_right_case(exact):
     submission = Submission(declaration=Declaration(code="mine"), runs=runs)
     found = mistakes_in(submission, judged(submission))
     assert [(one.case, one.name) for one in found] == [("S3", name)]
-
-
-REISSNER = Theory(shear=SHEAR, rotary_inertia=True)
-ENGESSER = Theory(shear=SHEAR, rotary_inertia=True, engesser=True)
-
-
-def of_theory(theory, declared):
-    """Results in the stout cases of a code that has one theory and declares another."""
-    linear, true = (reference(CASES[name], theory) for name in ("TL", "T"))
-    time = np.linspace(0.0, 15.0, 1501)
-    q = true.history(time)
-    rows = [
-        Row(
-            case="TL", elements=n, speed=w,
-            values=(linear.first_frequency(w) * (1.0 + 1e-2 / n**2),),
-        )
-        for n in (8, 16, 32)
-        for w in CASES["TL"].speeds
-    ]  # fmt: skip
-    runs = [
-        Run(case="T", elements=n, step=h, time=time, q=q * (1.0 + 0.1 / n**2 + 100.0 * h**2))
-        for n, h in ((8, 1e-3), (16, 1e-3), (32, 1e-3), (16, 5e-4), (16, 2e-3))
-    ]
-    declaration = Declaration(code="mine", order=2.0, order_in_step=2.0, theory=declared)
-    return Submission(declaration=declaration, rows=tuple(rows), runs=tuple(runs))
-
-
-@pytest.mark.parametrize(
-    ("theory", "declared", "said"),
-    [
-        (BERNOULLI_EULER, REISSNER, "those of Bernoulli-Euler, the tags say Timoshenko with"),
-        (REISSNER, BERNOULLI_EULER, "those of Timoshenko with rotary inertia, the tags say Bern"),
-        (ENGESSER, REISSNER, "those of Timoshenko, Engesser's law with rotary inertia, the tags"),
-        (REISSNER, ENGESSER, "the tags say Timoshenko, Engesser's law with rotary inertia: corr"),
-    ],
-)
-def test_tags_that_do_not_fit_are_named(theory, declared, said):
-    submission = of_theory(theory, declared)
-    found = mistakes_in(submission, judged(submission))
-    assert [(one.case, one.name) for one in found if one.case == "T"] == [("T", "tags")]
-    assert said in str(found[-1])
-
-
-@pytest.mark.parametrize("theory", [BERNOULLI_EULER, REISSNER, ENGESSER])
-def test_tags_that_fit_are_left_alone(theory):
-    submission = of_theory(theory, theory)
-    found = judged(submission)
-    assert found.passed
-    assert mistakes_in(submission, found) == []
