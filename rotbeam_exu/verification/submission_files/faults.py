@@ -9,7 +9,6 @@ from __future__ import annotations
 import difflib
 import os
 import re
-from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,9 +19,6 @@ _VARIES = re.compile(
     r"'(?:\\.|[^'\\])*'|\"(?:\\.|[^\"\\])*\"|[-+]?[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?"
 )
 """Parts that vary between sentences of one kind: quotations from a file, and numbers."""
-
-_MOST_FILES = 10
-"""Files in which a fault of one kind is told for each; faults in others are counted."""
 
 _SHOWN = 40
 """Letters of a faulty cell that a sentence repeats."""
@@ -47,45 +43,28 @@ class Fault:
 
 
 class Faults:
-    """Faults as they are found: the first of a kind in a file, and how many more there are.
-
-    Sentences of one kind differ in numbers and quotations only.
-    """
+    """Faults as they are found; sentences of one kind differ in numbers and quotations only."""
 
     def __init__(self) -> None:
-        self._first: dict[tuple[str, str], Fault] = {}
-        self._count: Counter[tuple[str, str]] = Counter()
-        self._files: dict[str, list[str]] = {}
+        self._alike: dict[tuple[str, str], list[Fault]] = {}
 
     def __bool__(self) -> bool:
-        return bool(self._first)
+        return bool(self._alike)
 
     def add(self, file: str, said: str, line: int | None = None) -> None:
-        """Keep a fault, or count it."""
-        kind = _VARIES.sub("#", said)
-        files = self._files.setdefault(kind, [])
-        if file not in files and len(files) < _MOST_FILES:
-            files.append(file)
-        key = kind, file if file in files else files[-1]
-        self._first.setdefault(key, Fault(file=file, said=said, line=line))
-        self._count[key] += 1
-
-    def extend(self, file: str, found: Iterable[tuple[str, int | None]]) -> bool:
-        """Keep faults of one file, each with its line, and return whether there are any."""
-        several = list(found)
-        for said, line in several:
-            self.add(file, said, line)
-        return bool(several)
+        """Keep a fault."""
+        fault = Fault(file=file, said=said, line=line)
+        self._alike.setdefault((_VARIES.sub("#", said), file), []).append(fault)
 
     def of(self, file: str) -> bool:
         """Return whether a file has one."""
-        return any(fault.file == file for fault in self._first.values())
+        return any(file == other for _, other in self._alike)
 
     def told(self) -> tuple[Fault, ...]:
-        """Return the first of each kind, in the order found, with the count of those alike."""
+        """Return the first of each kind in a file, in the order found, with the count of others."""
         return tuple(
-            replace(fault, said=fault.said + several(self._count[key]))
-            for key, fault in self._first.items()
+            replace(first, said=first.said + several(1 + len(others)))
+            for first, *others in self._alike.values()
         )
 
 

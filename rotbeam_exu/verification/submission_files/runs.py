@@ -158,7 +158,9 @@ def history_of(
         tip = np.stack([columns[name] for name in case.columns])
         farthest = tip[np.abs(tip).argmax(axis=0), np.arange(tip.shape[1])]
         unfit += _unfit(columns["time"], farthest, case)
-    if faults.extend(file, [(said, None if k is None else sheet.lines[k]) for said, k in unfit]):
+    for said, k in unfit:
+        faults.add(file, said, None if k is None else sheet.lines[k])
+    if unfit:
         return None
     within = columns["time"] <= case.duration
     errors = np.array([_rounding(columns, name, most, step) for name in case.columns])
