@@ -210,15 +210,12 @@ def test_a_mistake_may_leave_a_third_and_the_error_of_the_finest_run():
     assert most_left(1e-2, alone) == pytest.approx(1e-2 / 3.0, rel=1e-9)
 
 
-def test_all_that_was_handed_in_is_searched(exact):
+def test_all_that_was_handed_in_is_searched(submitted):
     """Frequencies in Hz and the sign of q, each named in its case with what is left."""
-    rows = tuple(Row(elements=n, speed=2.0, values=(first(2.0) / (2.0 * np.pi),)) for n in (8, 16))
-    runs = tuple(
-        Run(case="S1", elements=n, step=h, time=TIME, q=-exact.q * (1.0 + 0.1 / n**2))
-        for n, h in ((8, 1e-3), (16, 1e-3), (16, 5e-4))
-    )
-    submission = Submission(declaration=Declaration(code="mine"), rows=rows, runs=runs)
-    found = mistakes_in(submission, judged(submission))
+    mine = submitted(lambda q: -q)
+    rows = [replace(one, values=(one.values[0] / (2.0 * np.pi),)) for one in mine.rows]
+    mine = replace(mine, rows=tuple(rows))
+    found = mistakes_in(mine, judged(mine))
     assert [(one.case, one.name) for one in found] == [("L", "hertz"), ("S1", "sign of q")]
     assert "hand in rad/s" in str(found[0])
     assert found[1].before == pytest.approx(2.0, abs=1e-2)
