@@ -29,14 +29,11 @@ SECTION = Section(axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.
 STRAIGHT = Blade(length=1.0, section=SECTION).with_section_out_of_plane(0.0625, 0.08)
 BLADES = {
     "twist and precone": STRAIGHT.with_twist(math.pi / 6).with_precone(0.05),
-    "precone": STRAIGHT.with_precone(0.1).with_hub_radius(0.1),
     "set, swept and bent": STRAIGHT.with_setting_angle(0.4).with_prebend(0.2).with_sweep(0.1),
 }
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=pytest.mark.slow if n == "precone" else ()) for n in BLADES]
-)
+@pytest.mark.parametrize("name", BLADES)
 def test_frequencies_go_to_the_exact_ones_with_the_square_of_the_mesh(name, fitted_order):
     """Errors of 2e-4 to 3e-3 with 32 elements, all of second order: their limit is exact."""
     blade, meshes = BLADES[name], [8, 16, 32]
