@@ -33,7 +33,7 @@ def figure(
     """
     from .. import figures
 
-    with figures.style(style.lower()):
+    with figures.style(style):
         for n in numbered("figure", number, sorted(figures.PAPER_FIGURES)):
             _made(n, workers, results)
 

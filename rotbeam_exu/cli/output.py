@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import math
-import os
 import sys
 import time
 import unicodedata
@@ -53,12 +52,8 @@ def harmless(text: str) -> str:
     )
 
 
-def ready_streams() -> None:
-    """Let standard output and error exist, and write UTF-8, also to pipes and files of Windows."""
-    # Closed ones, as by >&-, are None; a new file takes their number, which no other then gets.
-    nowhere = Path(os.devnull)
-    sys.stdout = sys.stdout or nowhere.open("w", encoding="utf-8")
-    sys.stderr = sys.stderr or nowhere.open("w", encoding="utf-8")
+def write_utf8() -> None:
+    """Let standard output and error write UTF-8, also to pipes and files of Windows."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="replace")
@@ -115,6 +110,12 @@ def print_text(text: str | Text, *, stderr: bool = False) -> None:
     """Print a sentence: broken between words on a terminal, in one line for what reads a file."""
     console = new_console(stderr=stderr)
     console.print(text, soft_wrap=not console.is_terminal)
+
+
+def print_message(title: str, style: str, text: str) -> None:
+    """Print a sentence after its title on standard error."""
+    text = harmless(" ".join(text.split()))
+    print_text(Text.assemble((title, style), " ", text), stderr=True)
 
 
 def print_note(text: str) -> None:

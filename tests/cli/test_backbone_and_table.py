@@ -73,7 +73,7 @@ def test_what_one_model_refuses_does_not_take_the_others_away(call, tmp_path):
     assert error.count("warning:") == 1
     assert "no answer: CI, CE, FrI, FrE, P3, P4, P5: CI is for the uniform beam" in error
     # Who asked for one by its name did not get what was asked for.
-    code, out, error = call("backbone", "--variant", "ci", "--amplitude", "0.1", "--config", blade)
+    code, out, error = call("backbone", "--variant", "CI", "--amplitude", "0.1", "--config", blade)
     assert (code, out) == (2, "")
     assert "has a hub: take FrM" in error
 

@@ -9,20 +9,17 @@ from rotbeam_exu import load
 from rotbeam_exu.cli.output import print_columns
 
 
-@pytest.mark.parametrize("text", ["2.5", "0.6", "0x10", "1e1", "1_0", "٣", "nan", "", "9" * 400])
 @pytest.mark.parametrize(
-    "command",
+    ("command", "text"),
     [
-        ("run", "--elements"),
-        ("sweep", "--elements"),
-        ("sweep", "--jobs"),
-        ("table",),
-        ("animate", "--rate"),
-        ("campbell", "--points"),
-        ("figure", "14", "--jobs"),
+        (("run", "--elements"), "2.5"),
+        (("sweep", "--jobs"), "1e1"),
+        (("table",), "nan"),
+        (("animate", "--rate"), "0.6"),
+        (("campbell", "--points"), ""),
     ],
 )
-def test_only_decimal_digits_are_a_whole_number(call, tmp_path, monkeypatch, command, text):
+def test_what_is_no_whole_number_is_refused(call, tmp_path, monkeypatch, command, text):
     monkeypatch.chdir(tmp_path)
     code, out, error = call(*command, text)
     assert code == 2
@@ -47,27 +44,6 @@ def test_what_would_never_end_is_refused_before_it_starts(call, arguments, sente
     assert code == 2
     assert error.startswith("rotbeam: ")
     assert sentence in error
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("campbell", "--points"),
-        ("respond", "--gravity", "--damping-ratio", "0.1", "--from", "1", "--to", "2", "--points"),
-        ("ramp", "--points"),
-        ("ramp", "--finite-element-points"),
-        ("animate", "--rate"),
-    ],
-    ids=" ".join,
-)
-def test_what_no_memory_holds_is_one_sentence(call, tmp_path, arguments):
-    """Of 1e14 numbers, which are more than the addresses that a processor has."""
-    out = tmp_path / "film.gif" if arguments[0] == "animate" else tmp_path
-    code, _, error = call(*arguments, str(10**14), "--out", out)
-    assert code == 1
-    assert error.startswith("rotbeam: there is not enough memory (")
-    assert len(error.splitlines()) == 1
-    assert not list(tmp_path.iterdir())
 
 
 def test_a_zero_at_the_end_of_a_number_is_shown_where_its_neighbors_have_a_digit(capsys):

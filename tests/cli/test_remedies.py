@@ -66,30 +66,6 @@ def test_more_functions_are_on_offer(call):
     assert "3.729665" in out
 
 
-@pytest.fixture
-def small_sweep(call, tmp_path):
-    def swept(*more):
-        return call(
-            "sweep", "--omega", "6", "--ramp-time", "3", "--ramp-time", "2.5", "--elements", "1",
-            "--step", "0.01", "--duration", "8", "--jobs", "1", "--cache", tmp_path / "cache",
-            "--out", tmp_path, *more,
-        )  # fmt: skip
-
-    return swept
-
-
-def test_a_part_of_a_sweep_reads_as_the_sentence_says(small_sweep):
-    code, _, error = small_sweep("--shard", "first")
-    assert code == 2
-    example = re.search(r"must read k/n, as (\S+), got", error)[1]
-    assert small_sweep("--shard", example)[0] == 0
-    code, _, error = small_sweep("--shard", "3/2")
-    assert code == 2
-    low, high = re.search(r"between (\d) and (\d)", error).groups()
-    for part in (low, high):
-        assert small_sweep("--shard", f"{part}/2")[0] == 0
-
-
 def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path, monkeypatch):
     (tmp_path / "taken").write_text("a file")
     short = ("run", "--elements", "1", "--step", "0.01", "--duration", "8", "--no-figure", "--out")

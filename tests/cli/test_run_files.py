@@ -20,7 +20,7 @@ omega = 4
 ramp_time = 2.5
 
 [numerics]
-element = "Cable"
+element = "cable"
 elements = 2
 step = 0.01
 duration = 8
@@ -52,9 +52,9 @@ def test_motion_and_numerics_are_taken_and_options_come_first(call, tmp_path, co
     assert [line for line in out.splitlines() if line.startswith("written")] == [
         f"written {tmp_path}/cable-2-omega-4-ramp-2.5.{kind}" for kind in ("nc", "csv")
     ]
-    given = ("--elements", "1", "--omega", "5", "--frame", "inertial", "--element", "CABLE")
+    given = ("--elements", "1", "--omega", "5", "--frame", "inertial", "--element", "exact")
     assert call("run", "--config", config, *given, "--no-figure", "--out", tmp_path)[0] == 0
-    run = load(tmp_path / "cable-1-omega-5-ramp-2.5.nc")
+    run = load(tmp_path / "exact-1-omega-5-ramp-2.5.nc")
     assert (run.attrs["frame"], run.attrs["step"]) == ("inertial", 0.01)
 
 
@@ -221,21 +221,3 @@ def test_duration_and_step_of_the_file_reach_animate_and_verify(
 
     monkeypatch.setattr(room, "verify", stopped)
     assert "0.01 8 4" in call("verify", "--element", "cable", "--config", config)[2]
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        ("reference", "--omega", "None"), ("ramp", "--omega=None"),
-        ("sweep", "--omega", "6", "null"), ("sweep", "--duration", "None"),
-        ("campbell", "--omega-max", "NONE"),
-        ("run", "--elements", "none"), ("respond", "--from", "1", "--to", "2", "--ripple", "None"),
-    ],
-    ids=" ".join,
-)  # fmt: skip
-def test_none_is_no_value(call, line):
-    """A script that fills in what it lacks got the paper's number and exit code 0."""
-    code, out, error = call(*line)
-    assert (code, out) == (2, "")
-    assert "must have a value, got" in error
-    assert "leave it out" in error
