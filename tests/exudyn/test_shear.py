@@ -62,12 +62,12 @@ def test_rotary_inertia_is_that_which_is_told(model, told, has):
     )
 
 
-@pytest.mark.parametrize("frame", ["inertial", "rotating"])
-def test_sections_without_inertia_spin_up_as_the_theory_has_it(frame):
+def test_sections_without_inertia_spin_up_as_the_theory_has_it():
     motion, stubby = SpinUp(omega=30.0, ramp_time=0.2), with_rotary_inertia(0.0)
     run = simulate(
-        stubby, motion, element=Exact(nodes=3), elements=8, duration=0.3, step=5e-4, frame=frame
-    )
+        stubby, motion, element=Exact(nodes=3), elements=8, duration=0.3, step=5e-4,
+        frame="rotating",
+    )  # fmt: skip
     at = np.linspace(0.0, 0.3, 31)
     q = np.interp(at, run["time"], run["q"])
     bare, heavy = (

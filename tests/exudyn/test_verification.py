@@ -8,7 +8,6 @@ import pytest
 from analytic import Beam
 from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, Linear, SpaceExact
-from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.cases import CASES, frequency_case
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
@@ -114,15 +113,6 @@ def test_a_stout_element_passes_by_its_own_theory_alone():
 def test_each_element_that_is_right_passes(model, step):
     found = verify(formulation_entry(model, step=step))
     assert found.passed, str(found)
-
-
-@pytest.mark.slow
-def test_command_line(call, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "200")
-    monkeypatch.setattr(room, "DEFAULT", ("L", "S1"))
-    out = call("verify", "--element", "linear")[1]
-    assert "1 undecided (S1), 1 differs (L)" in out
-    assert "undecided: no run: failed, the tip's distance from the clamp" in out
 
 
 @pytest.mark.slow
