@@ -151,25 +151,6 @@ def test_rate_of_a_known_growth(rate):
         assert decades == pytest.approx(3.0, abs=0.01)
 
 
-@pytest.mark.parametrize(
-    ("change", "sentence"),
-    [
-        ({"element": "space_cable"}, "element='space_exact'"),
-        ({"element": "shell"}, "'space_cable', 'space_exact'"),
-        ({"frame": "rotating"}, "frame='inertial'"),
-        ({"beam": Beam.reference()}, r"with_section_out_of_plane\(bending_ratio"),
-        ({"beam": RECTANGLE.with_section_out_of_plane(1.0, np.inf)}, "element='space_cable'"),
-        ({"beam": RECTANGLE.with_tip_mass(0.5)}, "point masses"),
-        ({"beam": RECTANGLE.with_offsets(mass=(0.01, 0.0))}, r"blade.with_offsets\(\)"),
-        ({"beam": RECTANGLE.with_twist(0.1), "initial_state": kicked(RECTANGLE)}, "in its plane"),
-    ],
-)
-def test_what_is_refused(change, sentence):
-    arguments = {"beam": RECTANGLE, "spin_up": SpinUp(omega=2.0, ramp_time=1.0), **change}
-    with pytest.raises(ValueError, match=sentence):
-        simulate(**{"element": "space_exact", **arguments})
-
-
 @pytest.mark.parametrize("kick", [0.5, np.nan])
 def test_a_kick_is_small(kick):
     with pytest.raises(ValueError, match="kick"):
