@@ -44,7 +44,7 @@ def in_space(blade, **options):
         ({"duration": 2.0}, "duration 2 s ends before the steady rotation"),
         (
             {"element": "cabel"},
-            "unknown element 'cabel'; known are 'cable', 'exact', .*'space_exact'",
+            "unknown element 'cabel'; known are 'cable', .*'space_exact'",
         ),
         ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
         # Blades that an element does not model.

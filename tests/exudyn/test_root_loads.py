@@ -135,17 +135,10 @@ IN_SPACE = {"bending_ratio": 0.25, "torsion_ratio": 0.2}
     ("element", "frame", "changed"),
     [
         ("cable", "rotating", "driven"), ("cable", "inertial", "driven"),
-        ("cable", "rotating", "set"), ("exact", "rotating", "thick"), ("exact", "inertial", "hub"),
-        ("ancf3", "inertial", "hub"),
+        ("cable", "rotating", "set"), ("cable", "inertial", "bodies"),
+        ("exact", "rotating", "thick"), ("exact", "inertial", "hub"),
+        ("ancf3", "inertial", "hub"), ("space_cable", "rotating", "round"),
         ("space_exact", "inertial", "twisted"),
-        *(
-            pytest.param(element, frame, changed, marks=pytest.mark.slow)
-            for element, frame, changed in (
-                ("cable", "inertial", "bodies"), ("exact", "rotating", "bodies"),
-                ("ancf3", "rotating", "hub"), ("linear", "inertial", "bare"),
-                ("substructures", "rotating", "bare"), ("space_cable", "rotating", "round"),
-            )
-        ),
     ],
 )  # fmt: skip
 def test_the_station_at_the_root_has_the_forces_of_the_constraints(beam, element, frame, changed):
@@ -156,7 +149,6 @@ def test_the_station_at_the_root_has_the_forces_of_the_constraints(beam, element
     """
     hub = beam.with_hub_radius(0.5)
     blade = {
-        "bare": beam,
         "hub": hub,
         "driven": hub.with_damping(Damping(bending=0.02, external=0.05)),
         "set": hub.with_setting_angle(0.8),
