@@ -230,10 +230,8 @@ def _same(one: Any, other: Any) -> bool:
 @contextmanager
 def whole_file(target: Path) -> Iterator[Path]:
     """Give a path to write to; move it to `target` at the end, or remove it on any failure."""
-    # Named before it is made: a signal in between would leave what nobody knows.
     partial = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
     try:
-        partial.touch(exist_ok=False)
         yield partial
         partial.replace(target)
     except OSError as error:
