@@ -13,7 +13,7 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_out_of_plane, warn_if_rpm
 from ...blade import Blade
 from ...input_checks import points_of_beam, rotation_speed, whole_number
-from ...methods.gyroscopic import inverse_eigenvalues
+from ...methods.system import inverse_eigenvalues
 from ...profiles import in_units
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
