@@ -1,6 +1,8 @@
-"""The types of arrays and of profiles, and parts of long arrays."""
+"""The types of numbers, arrays and profiles, and parts of long arrays."""
 
 from __future__ import annotations
+
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,10 +10,18 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
+NumbersT = TypeVar("NumbersT", float, FloatArray)
+"""A number, or several; what has this type in and out keeps the shape."""
+
 Profile = float | tuple[float, ...] | tuple[tuple[float, float], ...]
 """A number, coefficients of 1, x/L, (x/L)² ..., or stations (x [m], value), linear in between."""
 
 _AT_ONCE = 100  # samples, in space of some megabytes each
+
+
+def lone_as_float(values: FloatArray) -> Any:
+    """Return one number as a float, several as they are."""
+    return values if values.ndim else float(values)
 
 
 def few_at_once(count: int) -> list[NDArray[np.int_]]:

@@ -149,15 +149,6 @@ def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
 
     Quantities of a units library are converted to `unit`.
     """
-    array = float_array(name, values, unit)
-    finite = np.isfinite(array)
-    if not finite.all():
-        raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}{_unit(unit)}")
-    return array
-
-
-def float_array(name: str, values: object, unit: str = "") -> FloatArray:
-    """Return numbers as `finite_array` does, for callers that look for NaN themselves."""
     values = bare(name, values, unit)
     if isinstance(values, (list, tuple)):
         values = [bare(name, item, unit) for item in values]
@@ -171,7 +162,11 @@ def float_array(name: str, values: object, unit: str = "") -> FloatArray:
     fractions = array.dtype.kind == "O" and all(isinstance(item, Real) for item in array.flat)
     if array.size and array.dtype.kind not in "fiu" and not fractions:
         raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
-    return np.asarray(array, dtype=np.float64)
+    array = np.asarray(array, dtype=np.float64)
+    finite = np.isfinite(array)
+    if not finite.all():
+        raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}{_unit(unit)}")
+    return array
 
 
 def finite_values(name: str, values: object, unit: str = "") -> FloatArray:

@@ -6,16 +6,13 @@ import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, NumbersT
 from .description import Described
 from .input_checks import positive, rotation_speed
-
-TimeT = TypeVar("TimeT", float, FloatArray)
-"""A time, or several."""
 
 _INSTANTS = 2001  # for the highest speed of a motion that does not tell it
 
@@ -45,19 +42,19 @@ class Motion(Described, ABC, abstract=True):
     def _at(self, t: Any, derivative: int) -> Any:
         """Return the angle, or its first or second derivative, at a float or an array of times."""
 
-    def angle(self, t: TimeT) -> TimeT:
+    def angle(self, t: NumbersT) -> NumbersT:
         """Return the angle θ [rad], zero at t = 0; `t` [s] scalar or array, result in its shape."""
-        found: TimeT = self._at(instants(t), 0)
+        found: NumbersT = self._at(instants(t), 0)
         return found
 
-    def rate(self, t: TimeT) -> TimeT:
+    def rate(self, t: NumbersT) -> NumbersT:
         """Return the angular velocity dθ/dt [rad/s]; `t` [s] scalar or array."""
-        found: TimeT = self._at(instants(t), 1)
+        found: NumbersT = self._at(instants(t), 1)
         return found
 
-    def acceleration(self, t: TimeT) -> TimeT:
+    def acceleration(self, t: NumbersT) -> NumbersT:
         """Return the angular acceleration d²θ/dt² [rad/s²]; `t` [s] scalar or array."""
-        found: TimeT = self._at(instants(t), 2)
+        found: NumbersT = self._at(instants(t), 2)
         return found
 
 

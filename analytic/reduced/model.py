@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, NumbersT, lone_as_float
 from ..beam import AnyBlade
-from ..input_checks import finite_array, finite_number, not_negative, whole_number
+from ..input_checks import finite_array, finite_number, not_negative
 from ..warning import warn
 from .any_blade import NormalMode, normal_mode
 from .oscillator import Oscillator, Perturbation
 from .variants import Variant
 
-_NO_ORBIT = "Eq. 41 has no periodic orbit"
 _MEANT = {3: 0.2, 5: 0.4}
 """Amplitudes up to which a model is meant, by its order: the paper's own bound, and FrM5's."""
 
@@ -78,7 +76,7 @@ class ReducedModel:
     @property
     def kappa(self) -> float:
         """κ of ω_NL = ω_n (1 - λ_ω a² - κ a⁴) [-], a the first harmonic; zero but in FrM5."""
-        return self.perturbation.kappa
+        return self._normal_mode.kappa if self.variant.order == 5 else 0.0
 
     @property
     def kappa_of_peak(self) -> float:
@@ -97,27 +95,15 @@ class ReducedModel:
         """
         if not self.variant.coriolis:
             return Perturbation(lambda_omega=self.lambda_omega, h3=self.oscillator.lambda_x)
-        mode = self._normal_mode
-        kappa = mode.kappa if self.variant.order == 5 else 0.0
-        return Perturbation(lambda_omega=self.lambda_omega, kappa=kappa, h2=mode.h2, h3=mode.h3)
+        h2, h3 = self._normal_mode.h2, self._normal_mode.h3
+        return Perturbation(lambda_omega=self.lambda_omega, kappa=self.kappa, h2=h2, h3=h3)
 
-    @property
-    def largest_amplitude(self) -> float:
-        """Largest amplitude a/L for which both Eq. 63 and Eq. 41 have a periodic orbit, up to 1."""
-        return min(1.0, self._largest_perturbed, self.oscillator.largest_amplitude)
-
-    @property
-    def _largest_perturbed(self) -> float:
-        if self.variant.order == 5:
-            return self.perturbation.largest_amplitude
-        return self.oscillator.largest_perturbed_amplitude
-
-    def frequency(self, a: ArrayLike) -> Any:
+    def frequency(self, a: NumbersT) -> NumbersT:
         """Return ω_NL = ω_n (1 - λ_ω a²) [rad/s], Eq. 63, and of FrM5 with its -κ a⁴.
 
         Parameters
         ----------
-        a : array_like
+        a : float or ndarray
             Amplitude a0 of the first harmonic over L, in 0 .. 1; the result has its shape.
 
         Raises
@@ -128,34 +114,26 @@ class ReducedModel:
         TypeError
             If `a` does not hold numbers.
         """
-        amplitude = self._within(a, self._largest_perturbed, "Eq. 63 has no frequency")
-        # In place, so that millions of amplitudes cost what the bare formula does.
-        result = amplitude * amplitude
-        if self.variant.order == 5:
-            result *= self.lambda_omega + self.kappa * result
-            result *= -self.omega_n
-        else:
-            result *= -self.lambda_omega * self.omega_n
-        result += self.omega_n
-        return result if result.ndim else float(result)
-
-    def peak(self, a: ArrayLike) -> FloatArray:
-        """Return the peak of q/L of the first harmonic `a`, of its shape; see `response`."""
-        return self.perturbation.peak(finite_array("amplitude", a))
+        series = Perturbation(lambda_omega=self.lambda_omega, kappa=self.kappa)
+        amplitude = self._within(a, series.largest_amplitude, "Eq. 63 has no frequency")
+        found: NumbersT = lone_as_float(self.omega_n * series.ratio(amplitude))
+        return found
 
     def first_harmonic(self, peak: ArrayLike) -> FloatArray:
-        """Return the first harmonic of q/L that has the `peak`, of its shape: `peak` inverted."""
+        """Return the first harmonic of q/L whose `response` has the `peak`, of its shape."""
         return self.perturbation.first_harmonic(finite_array("peak", peak))
 
-    def exact_frequency(self, a: ArrayLike) -> Any:
+    def exact_frequency(self, a: NumbersT) -> NumbersT:
         """Return the exact frequency of Eq. 41 [rad/s], by its first integral.
 
         Its distance from `frequency` is the error of the perturbation, of order a⁴. Parameters and
         errors as in `frequency`, but `a` is the peak of x.
         """
-        amplitude = self._within(a, self.oscillator.largest_amplitude, _NO_ORBIT)
-        result = self.beam.frequency_scale * self.oscillator.exact_frequency(amplitude)
-        return result if result.ndim else float(result)
+        largest = self.oscillator.largest_amplitude
+        amplitude = self._within(a, largest, "Eq. 41 has no periodic orbit")
+        exact = self.oscillator.exact_frequency(amplitude)
+        found: NumbersT = lone_as_float(self.beam.frequency_scale * exact)
+        return found
 
     def response(self, t: ArrayLike, a0: float, phase: float = 0.0) -> FloatArray:
         """Return x(t) = q/L of Eq. 65, of the shape of `t`; of FrM with its second harmonic.
@@ -175,16 +153,6 @@ class ReducedModel:
         a0 = not_negative("a0", a0)
         psi = self.frequency(a0) * finite_array("t", t, "s") + finite_number("phase", phase, "rad")
         return self.perturbation.deflection(psi, a0)
-
-    def orbit(self, a0: float, n: int = 200) -> tuple[FloatArray, FloatArray]:
-        """Return x and dx/dτ of Eq. 41, each (n,), once around the orbit with peak `a0`.
-
-        Without perturbation, by the first integral; equally spaced in the angle ψ of
-        x = a0 cos ψ, and the last point is the first.
-        """
-        a0 = not_negative("a0", a0)
-        self._within(a0, self.oscillator.largest_amplitude, _NO_ORBIT)
-        return self.oscillator.orbit(a0, whole_number("n", n, least=2))
 
     def __repr__(self) -> str:
         kind = "softens" if self.lambda_omega > 0.0 else "hardens"

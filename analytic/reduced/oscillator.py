@@ -11,6 +11,7 @@ Multiplied by ẋ it integrates to ½(1 + g2 x²) ẋ² + ½ω_n² x² + ¼g1 x�
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +25,7 @@ _MARGIN = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Oscillator:
-    """Eq. 41 with numbers for its coefficients: ω_n over √(EI/mL³), g1 and g2."""
+    """Eq. 41 with its coefficients: ω_n over √(EI/mL³), g1 and g2."""
 
     w_n: float
     g1: float
@@ -33,17 +34,12 @@ class Oscillator:
     @property
     def lambda_omega(self) -> float:
         """λ_ω of Eq. 64 = g2/4 - 3 g1/(8 ω_n²) [-]; positive softens."""
-        return self.g2 / 4.0 - 3.0 * self.g1 / (8.0 * self.w_n**2)
+        return self.g2 / 4 - 3 * self.g1 / (8 * self.w_n**2)
 
     @property
     def lambda_x(self) -> float:
         """λ_x of Eq. 65 = g2/16 - g1/(32 ω_n²) [-]."""
-        return self.g2 / 16.0 - self.g1 / (32.0 * self.w_n**2)
-
-    @property
-    def largest_perturbed_amplitude(self) -> float:
-        """Amplitude from which on Eq. 63 has no positive frequency; may be infinite."""
-        return 1.0 / math.sqrt(self.lambda_omega) if self.lambda_omega > 0.0 else math.inf
+        return self.g2 / 16 - self.g1 / (32 * self.w_n**2)
 
     @property
     def largest_amplitude(self) -> float:
@@ -64,13 +60,10 @@ class Oscillator:
         is analytic and periodic: the midpoint rule converges geometrically, at the rate set by its
         nearest singularity in the complex plane.
         """
-        square = a**2
-        count = self._midpoints(float(np.max(square, initial=0.0)))
-        total = np.zeros_like(square)
-        for psi in (np.arange(count) + 0.5) * (0.5 * np.pi / count):
-            x_square = square * math.sin(psi) ** 2
-            stiffness = self.w_n**2 + 0.5 * self.g1 * (square + x_square)
-            total += np.sqrt((1.0 + self.g2 * x_square) / stiffness)
+        count = self._midpoints(float(np.max(a**2, initial=0.0)))
+        total = np.zeros_like(a)
+        for _, inertia, stiffness in self._quarter(a, count):
+            total += np.sqrt(inertia / stiffness)
         return count / total
 
     def action(self, a: FloatArray) -> FloatArray:
@@ -80,19 +73,16 @@ class Oscillator:
         """
         count = 64
         total = np.zeros_like(a)
+        for psi, inertia, stiffness in self._quarter(a, count):
+            total += (a * math.cos(psi)) ** 2 * np.sqrt(inertia * stiffness)
+        return total / count
+
+    def _quarter(self, a: FloatArray, count: int) -> Iterator[tuple[float, FloatArray, FloatArray]]:
+        """Yield midpoints ψ of a quarter period, and what inertia and stiffness are there."""
         for psi in (np.arange(count) + 0.5) * (0.5 * np.pi / count):
             x_square = a**2 * math.sin(psi) ** 2
             stiffness = self.w_n**2 + 0.5 * self.g1 * (a**2 + x_square)
-            p = np.sqrt((1.0 + self.g2 * x_square) * stiffness)
-            total += (a * math.cos(psi)) ** 2 * p
-        return total / count
-
-    def orbit(self, a: float, n: int) -> tuple[FloatArray, FloatArray]:
-        """Return x and ẋ, each (n,), once around the orbit through (a, 0); the ends coincide."""
-        psi = np.linspace(0.0, 2.0 * np.pi, n)
-        x = a * np.cos(psi)
-        stiffness = self.w_n**2 + 0.5 * self.g1 * (a**2 + x**2)
-        return x, -a * np.sin(psi) * np.sqrt(stiffness / (1.0 + self.g2 * x**2))
+            yield psi, 1.0 + self.g2 * x_square, stiffness
 
     def _midpoints(self, square: float) -> int:
         """Midpoints on a quarter period that bring the error exp(-4 n y) below round-off."""
@@ -123,7 +113,7 @@ class Perturbation:
     lambda_omega: float
     kappa: float = 0.0
     h2: float = 0.0
-    h3: float
+    h3: float = 0.0
 
     @property
     def largest_amplitude(self) -> float:
@@ -131,6 +121,11 @@ class Perturbation:
         roots = np.roots([-self.kappa, -self.lambda_omega, 1.0])
         squares = roots.real[(abs(roots.imag) < 1e-12) & (roots.real > 0.0)]
         return math.sqrt(float(squares.min())) if squares.size else math.inf
+
+    def ratio(self, a: FloatArray) -> FloatArray:
+        """Return ω_NL/ω_n, of the shape of `a`."""
+        square = a * a
+        return 1.0 - square * (self.lambda_omega + self.kappa * square)
 
     def deflection(self, psi: FloatArray, a: FloatArray | float) -> FloatArray:
         """Return q/L at the phases ψ."""

@@ -2,21 +2,17 @@
 
 Nothing is expanded by hand here. The ordering of Secs. 3 and 4, q ~ ε and μ ~ ε² (so that Δl ~ q²),
 is put into the Lagrangian of Eqs. 31, 32, 34 and 72; terms up to order ε⁴ are kept.
-
-Multiple time scales on Eq. 41, Eqs. 46-65, are carried out as well. With ψ = ω_n T0 + φ(T1) and z =
-exp(jψ), every function on the way is a Laurent polynomial in z. The derivatives with respect to the
-two times are D0 = jω_n z ∂/∂z and D1 = a' ∂/∂a + jφ' z ∂/∂z.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import NamedTuple
 
 import sympy as sp  # type: ignore[import-untyped]
 
 from .lagrangian import Axial, AxialModel, axial_model
+from .oscillator import Oscillator
 from .shapes import PolynomialShape
 
 OMEGA = sp.Symbol("Omega", nonnegative=True)
@@ -25,13 +21,7 @@ MU = sp.Symbol("mu", positive=True)
 X = sp.Symbol("x", real=True)
 
 _Q, _Q_DOT, _W = sp.symbols("q q_dot w", real=True)
-OMEGA_N = sp.Symbol("omega_n", positive=True)
-G1, G2 = sp.symbols("g1 g2", real=True)
-A = sp.Symbol("a", positive=True)
-A_PRIME, PHI_PRIME = sp.symbols("a' phi'", real=True)
-
 _EPSILON = sp.Symbol("epsilon", positive=True)
-_Z = sp.Symbol("z")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,8 +58,7 @@ def symbolic_forms(shape: PolynomialShape, axial: Axial) -> SymbolicForms:
     g1 = sp.expand((-2 * lagrangian.coeff_monomial(_Q**4) / half_mass).subs(spin))
     g2 = lagrangian.coeff_monomial(_Q**2 * _Q_DOT**2) / half_mass
 
-    solution = multiple_time_scales()
-    values = {OMEGA_N: sp.sqrt(omega_n_squared), G1: g1, G2: g2}
+    oscillator = Oscillator(w_n=sp.sqrt(omega_n_squared), g1=g1, g2=g2)
     return SymbolicForms(
         phi_v=phi_v,
         phi_u=sp.expand(phi_u),
@@ -77,8 +66,8 @@ def symbolic_forms(shape: PolynomialShape, axial: Axial) -> SymbolicForms:
         omega_n_squared=omega_n_squared,
         g1=g1,
         g2=g2,
-        lambda_omega=sp.cancel(sp.together(solution.lambda_omega.subs(values))),
-        lambda_x=sp.cancel(sp.together(solution.lambda_x.subs(values))),
+        lambda_omega=sp.cancel(sp.together(oscillator.lambda_omega)),
+        lambda_x=sp.cancel(sp.together(oscillator.lambda_x)),
     )
 
 
@@ -125,45 +114,3 @@ def _truncated(density: sp.Expr) -> sp.Expr:
 def _antiderivative(f: sp.Expr) -> sp.Expr:
     """Integrate from the clamp."""
     return sp.integrate(sp.expand(f), X)
-
-
-class TimeScales(NamedTuple):
-    """ω_NL = ω_n (1 - λ_ω a²), Eq. 64, and x = a cos ψ - λ_x a³ cos 3ψ, Eq. 65."""
-
-    lambda_omega: sp.Expr
-    lambda_x: sp.Expr
-
-
-@cache
-def multiple_time_scales() -> TimeScales:
-    """Derive λ_ω and λ_x of Eq. 41, in the symbols ω_n, g1 and g2 of this module.
-
-    Corrected: Eq. 60 is of order ε, and since Eq. 61 has no homogeneous part the response starts
-    from x(0) = a(1 - λ_x a²), not from the initial value Eq. 53 asks for.
-    """
-    # Eq. 55, and the third harmonic of Eq. 61 with its amplitude b unknown.
-    b = sp.Symbol("b", real=True)
-    x = A / 2 * (_Z + 1 / _Z) + _EPSILON * b / 2 * (_Z**3 + 1 / _Z**3)
-
-    # Eqs. 48 and 49, and the residual of Eq. 51.
-    velocity = _total_derivative(x)
-    acceleration = _total_derivative(velocity)
-    nonlinear = G1 * x**3 + G2 * (x * velocity**2 + acceleration * x**2)
-    residual = sp.expand(acceleration + OMEGA_N**2 * x + _EPSILON * nonlinear)
-    if residual.coeff(_EPSILON, 0) != 0:
-        raise AssertionError("Eq. 55 does not solve Eq. 52")
-    order_1 = sp.expand(residual.coeff(_EPSILON, 1))
-
-    # Eqs. 56 and 57: nothing on the right of Eq. 53 may resonate, so that a' = 0.
-    phase_rate = sp.solve(sp.re(sp.expand(order_1.coeff(_Z, 1))), PHI_PRIME)[0]
-    amplitude = sp.solve(order_1.coeff(_Z, 3), b)[0]
-    return TimeScales(
-        lambda_omega=sp.expand(-phase_rate / (OMEGA_N * A**2)),
-        lambda_x=sp.expand(-amplitude / A**3),
-    )
-
-
-def _total_derivative(f: sp.Expr) -> sp.Expr:
-    """d/dτ = D0 + ε D1, Eq. 48."""
-    turning = sp.I * _Z * sp.diff(f, _Z)
-    return OMEGA_N * turning + _EPSILON * (A_PRIME * sp.diff(f, A) + PHI_PRIME * turning)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple, overload
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -108,6 +108,15 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
         points = 2 * points - 1
 
 
+@overload
+def residual_amplitude(
+    beam: AnyBlade, spin_up: SpeedChange, *,
+    corrected: bool = False, exact: bool = False, tolerance: float = 1e-6,
+) -> float: ...  # fmt: skip
+@overload
+def residual_amplitude(
+    beam: AnyBlade, spin_up: SpeedChange, ramp_times: ArrayLike, *, corrected: bool = False
+) -> FloatArray: ...
 @one_thread
 def residual_amplitude(
     beam: AnyBlade,
@@ -117,7 +126,7 @@ def residual_amplitude(
     corrected: bool = False,
     exact: bool = False,
     tolerance: float = 1e-6,
-) -> Any:
+) -> float | FloatArray:
     """Return the amplitude over L of the tip's first mode after a change of the speed.
 
     Linear theory of the inextensible blade, adiabatic in the speed. Against the exact transient

@@ -16,7 +16,7 @@ GROUPS = {
         "campbell_diagram", "tapered_blade", "softening_map", "real_blade", "blade_in_exudyn",
         "hub_with_blades", "forced_response", "gravity",
     ),
-    "Stability": ("is_it_planar", "leaving_the_plane", "out_of_plane", "internal_resonance"),
+    "Stability": ("is_it_planar", "internal_resonance"),
     "Numerics": ("mesh_convergence", "thickness_locking", "linear_frame", "substructures"),
 }  # fmt: skip
 FIRST = tuple(stem for stems in GROUPS.values() for stem in stems)

@@ -9,36 +9,19 @@ import inspect
 import math
 import os
 import re
+import signal
 import sys
 import warnings
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from types import NoneType
-from typing import get_args
 
 import cyclopts
 
 from analytic.warning import RotbeamWarning
 
 from .. import __version__
-from .endings import Messages, sentence_on, stopped_as_by_ctrl_c
-from .output import ready_streams
-
-
-def _refuse_none(
-    _: cyclopts.App, __: tuple[str, ...], arguments: cyclopts.ArgumentCollection
-) -> None:
-    """Refuse None and null, which a script writes for a missing value; they mean the default."""
-    for argument in arguments:
-        if NoneType in get_args(argument.hint) and not {str, Path} & set(get_args(argument.hint)):
-            for token in argument.tokens:
-                if token.value.lower() in ("none", "null"):
-                    raise ValueError(
-                        f"{token.keyword} must have a value, got {token.value}: leave it out to "
-                        "have the default"
-                    )
-
+from .output import print_message, write_utf8
 
 app = cyclopts.App(
     name="rotbeam",
@@ -48,7 +31,6 @@ app = cyclopts.App(
     default_parameter=cyclopts.Parameter(negative=()),
     result_action="return_value",
     suppress_keyboard_interrupt=False,
-    config=_refuse_none,
 )
 _COMMANDS = (
     "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
@@ -89,44 +71,58 @@ _SPEED_UNITS = {"--rpm": math.pi / 30.0, "--hz": 2.0 * math.pi, "--rps": 2.0 * m
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; bad input is one sentence and exit code 2, a failed run is 1."""
     arguments = sys.argv[1:] if arguments is None else list(map(str, arguments))
-    ready_streams()
-    messages = Messages()
-
-    def stop(text: str, code: int) -> None:
-        with suppress(OSError):  # of a terminal that is closed
-            messages.count()
-            messages.say("rotbeam:", "red", text)
-        sys.exit(128 + met[0] if met else code)
-
-    with warnings.catch_warnings(), stopped_as_by_ctrl_c() as met:
-        warnings.simplefilter("always", RotbeamWarning)
-        warnings.showwarning = messages.warn  # type: ignore[assignment]
+    write_utf8()
+    with warnings.catch_warnings(), _ctrl_c_noted() as met:
+        warnings.simplefilter("default", RotbeamWarning)  # the same sentence once
+        warnings.showwarning = lambda message, *_: print_message("warning:", "yellow", str(message))
         try:
             app(arguments, exit_on_error=False, print_error=False)
             sys.stdout.flush()
-            messages.count()
         except BrokenPipeError:
             # Who reads has read enough, as `head` does; the exit must not flush into it again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(1)
-        except cyclopts.UnknownOptionError as error:
-            stop(_unknown_option(error), 2)
-        except cyclopts.MissingArgumentError as error:
-            command = " ".join(["rotbeam", *(error.command_chain or ())])
-            stop(f"{error} {command} --help explains it", 2)
-        except OverflowError as error:
-            stop(f"a number is too large to compute with ({error})", 2)
-        except OSError as error:
-            stop(sentence_on(error), 2)
-        except (cyclopts.CycloptsError, ValueError, TypeError, ImportError) as error:
-            stop(str(error), 2)
-        except MemoryError as error:
-            stop(f"there is not enough memory ({error}): take fewer or shorter", 1)
-        except RuntimeError as error:
-            stop(str(error), 1)
-        except KeyboardInterrupt as interrupt:
-            stop(f"interrupted; {interrupt}" if interrupt.args and str(interrupt) else
-                 "interrupted; nothing was written", 130)  # fmt: skip
+        except (
+            cyclopts.CycloptsError, ImportError, KeyboardInterrupt, MemoryError, OSError,
+            OverflowError, RuntimeError, TypeError, ValueError,
+        ) as error:  # fmt: skip
+            told = isinstance(error, KeyboardInterrupt) or not met
+            text, code = _ending(error if told else KeyboardInterrupt())
+            print_message("rotbeam:", "red", text)
+            sys.exit(code)
+
+
+@contextmanager
+def _ctrl_c_noted() -> Iterator[list[int]]:
+    """Give a list that Ctrl-C joins: Exudyn tells it as a failed import, or an error of its own."""
+    met: list[int] = []
+
+    def note(number: int, _: object) -> None:
+        met.append(number)
+        raise KeyboardInterrupt
+
+    ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if ours:
+        signal.signal(signal.SIGINT, note)
+    try:
+        yield met
+    finally:
+        if ours:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _ending(error: BaseException) -> tuple[str, int]:
+    """Return the sentence on an error, and the exit code."""
+    if isinstance(error, KeyboardInterrupt):
+        return f"interrupted; {str(error) or 'nothing was written'}", 130
+    if isinstance(error, cyclopts.UnknownOptionError):
+        return _unknown_option(error), 2
+    if isinstance(error, cyclopts.MissingArgumentError):
+        command = " ".join(["rotbeam", *(error.command_chain or ())])
+        return f"{error} {command} --help explains it", 2
+    if isinstance(error, OSError) and error.filename:
+        return f"{error.filename}: {error.strerror}", 2
+    return str(error), 1 if isinstance(error, RuntimeError) else 2
 
 
 def _unknown_option(error: cyclopts.UnknownOptionError) -> str:

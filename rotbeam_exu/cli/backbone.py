@@ -16,7 +16,7 @@ from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from .motion import Config, Omega, configured, omega_of
-from .options import Amplitudes, Flag, VariantName, Whole
+from .options import Amplitudes, Flag, Whole
 from .output import Format, bar, print_columns, print_note
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def backbone(
     *,
     omega: Omega = None,
     amplitude: Amplitudes = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
-    variant: VariantName | None = None,
+    variant: str | None = None,
     all_variants: Flag = False,
     exact: Flag = False,
     mode: Whole = 1,

@@ -42,7 +42,7 @@ def explore(
     jobs
         Number of processes; by default, all cores.
     force
-        Replace a page that is not the Explorer.
+        Replace a page that is there.
 
     Examples
     --------
@@ -54,8 +54,7 @@ def explore(
     require_exudyn()
     if out is None:
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
-    # It has no inputs: an Explorer may be made again, but what else stands there is not ours.
-    require_writable(out, force=force, ours="<title>Rotating beam explorer", ending=".html")
+    require_writable(out, force=force, ending=".html")
     file = configured(config)
     if file.motion:
         raise ValueError(

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import shorten
 from typing import Any, Generic, TypeVar
 
 from ..files.results import differing_inputs, save, save_tables, whole_file, writable_folder
 from ..lazily import xr
-from .endings import telling_what_is_kept
 from .output import print_written
 
 R = TypeVar("R")
 T = TypeVar("T")
 
-_MOST_NAMED = 4
-_LONGEST, _AHEAD = 60, 20  # letters of a value that are shown, and of what two have in common
+_LONGEST = 60
+"""Letters of a value that are shown."""
 
 
 class UnfinishedError(Exception):
@@ -24,6 +25,16 @@ class UnfinishedError(Exception):
 
     Its cause is the error, its arguments are the part and the word "computed" or "found".
     """
+
+
+@contextmanager
+def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
+    """Let Ctrl-C name the files that stay: `kept` returns them, or an empty text."""
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
+        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
 
 
 def _itself(data: Any) -> Any:
@@ -61,8 +72,6 @@ class Job(Generic[R, T]):
         Drawing of the Dataset by `figures`, which is handed over; none, unless given.
     caption
         Words about the figure, for a file of text beside it.
-    aside
-        Whether the list of files goes to standard error, as beside a CSV.
     """
 
     path: Path
@@ -74,13 +83,11 @@ class Job(Generic[R, T]):
     show: Callable[[R, xr.Dataset], T]
     draw: Callable[[Any, xr.Dataset], Any] | None = None
     caption: str = ""
-    aside: bool = False
 
     def run(self) -> T:
         """Check, compute, save, show, draw and list the files; return what `show` does."""
         writable_folder(self.path.parent)
-        targets = Path(f"{self.path}.nc"), Path(f"{self.path}.csv")
-        refuse_to_replace(self.inputs, *targets, force=self.force)
+        refuse_to_replace(self.inputs, Path(f"{self.path}.nc"), force=self.force)
         try:
             result = self.compute()
         except UnfinishedError as end:
@@ -97,81 +104,45 @@ class Job(Generic[R, T]):
                 written.append(Path(f"{self.path}.txt"))
                 with whole_file(written[-1]) as partial:
                     partial.write_text(f"{self.caption}\n", encoding="utf-8")
-        print_written(written, stderr=self.aside)
+        print_written(written)
         return shown
 
     def _kept(self, end: UnfinishedError) -> str:
         """Save the part of a result, marked failed, and return why it ended and where it is."""
         error, (found, word) = end.__cause__, end.args
         part = self.dataset(found).assign_attrs(verdict=f"failed: {error}")
-        stem = f"{self.path}-failed"
-        names = (Path(stem if n == 1 else f"{stem}-{n}") for n in range(1, 10_000))
-        free = next(name for name in names if not differing_inputs(part, f"{name}.nc"))
-        kept = saved(part, free, self.table(part))[0]
+        kept = saved(part, Path(f"{self.path}-failed"), self.table(part))[0]
         return f"{error}; the part that was {word} is in {kept}, marked failed"
 
 
 def refuse_to_replace(
-    inputs: xr.Dataset | Mapping[str, object], *targets: Path, force: bool = False
+    inputs: xr.Dataset | Mapping[str, object], target: Path, *, force: bool
 ) -> None:
-    """Refuse, unless forced, where a target holds results of other inputs.
-
-    Parameters
-    ----------
-    inputs
-        A result, or its inputs by name before it is computed.
-    targets
-        Files to write; the same inputs may write them again.
-    force
-        Refuse nothing.
-    """
-    if force:
+    """Refuse, unless forced, where a netCDF file holds a result of other inputs."""
+    differing = {} if force else differing_inputs(inputs, target)
+    if not differing:
         return
-    for target in targets:
-        differing = differing_inputs(inputs, target)
-        if not differing:
-            continue
-        if "file" in differing:
-            what = f"is not a result that can be compared ({differing['file'][1]})"
-        else:
-            named = [
-                f"{name} {there} instead of {mine}"
-                for name, pair in differing.items()
-                for mine, there in [_short(*pair)]
-            ]
-            more = len(named) - _MOST_NAMED
-            rest = [f"{more} more"] if more > 0 else []
-            what = f"holds another result: {'; '.join([*named[:_MOST_NAMED], *rest])}"
-        raise FileExistsError(f"{target} {what}; choose another folder with --out, or --force")
+    if "file" in differing:
+        what = f"is not a result that can be compared ({differing['file'][1]})"
+    else:
+        named = [
+            f"{name} {_typed(there)} instead of {_typed(mine)}"
+            for name, (mine, there) in differing.items()
+        ]
+        what = f"holds another result: {'; '.join(named)}"
+    raise FileExistsError(f"{target} {what}; choose another folder with --out, or --force")
 
 
-def require_writable(
-    target: Path, *, force: bool | None = None, ours: str = "", ending: str = ""
-) -> None:
-    """Refuse another ending, and, unless forced, a file that does not hold `ours` early on.
-
-    Such a file does not tell its inputs. Its folder is made, if it can be written.
-    """
+def require_writable(target: Path, *, force: bool, ending: str = "") -> None:
+    """Refuse another ending, a folder that cannot be written, and, unless forced, a file there."""
     if ending and target.suffix != ending:
         raise ValueError(f"cannot write {target.name!r}: the ending must be {ending}")
     writable_folder(target.parent)
-    known = ours and target.is_file() and ours.encode() in target.read_bytes()[:4096]
-    if target.exists() and not known and not force:
-        remedy = "choose another name" + ("" if force is None else " with --out, or --force")
-        raise FileExistsError(f"{target} is there, from unknown inputs: {remedy}")
-
-
-def _short(*values: object) -> list[str]:
-    """Return values as one would type them; of long ones, the part from where they differ."""
-    texts = [_typed(value) for value in values]
-    pairs = zip(*texts, strict=False)
-    differ = next((i for i, (one, other) in enumerate(pairs) if one != other), 0)
-    begin = max(0, differ - _AHEAD) if max(map(len, texts)) > _LONGEST else 0
-    cut = [f"...{text[begin:]}" if begin else text for text in texts]
-    return [text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..." for text in cut]
+    if target.exists() and not force:
+        raise FileExistsError(f"{target} is there: choose another name with --out, or --force")
 
 
 def _typed(value: object) -> str:
-    if value is None:
-        return "none"
-    return f"{value:.12g}" if isinstance(value, float) else " ".join(str(value).split())
+    """Return a value as one would type it, the begin of a long one."""
+    text = f"{value:.12g}" if isinstance(value, float) else str(value)
+    return shorten(text, _LONGEST, placeholder=" ...")

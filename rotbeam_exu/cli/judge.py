@@ -6,13 +6,10 @@ import sys
 from collections.abc import Sequence
 from json import dumps
 from pathlib import Path
-from typing import Annotated
-
-from cyclopts import Parameter
 
 from ..files.results import whole_file
-from ..report.document import SCHEMA, Record, document
-from ..report.page import TITLE, report_page
+from ..report.document import Record, document
+from ..report.page import report_page
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import judged
 from ..verification.mistakes import mistakes_in
@@ -20,18 +17,15 @@ from ..verification.mistakes.mistake import Mistake
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable
-from .options import spelled_as
 from .output import bar, print_note, print_text, print_written
 from .verify import print_judgements
-
-Chosen = Annotated[str, Parameter(converter=spelled_as(lambda: CASES))]
 
 
 def judge(
     folder: Path,
     /,
     *,
-    case: list[Chosen] | None = None,
+    case: list[str] | None = None,
     report: Path | None = None,
     json: Path | None = None,
 ) -> None:
@@ -47,18 +41,18 @@ def judge(
     case
         Judge this case alone, as S1; repeat it for several.
     report
-        Write the report, one HTML page.
+        Write the report, one HTML page; an old one is replaced.
     json
-        Write all findings as JSON.
+        Write all findings as JSON; an old file is replaced.
 
     Examples
     --------
     $ rotbeam judge mine --report mine.html --json mine.json
     $ rotbeam judge mine --case S1
     """
-    for target, ending, ours in ((report, ".html", TITLE), (json, ".json", SCHEMA)):
+    for target, ending in ((report, ".html"), (json, ".json")):
         if target is not None:
-            require_writable(target, ours=ours, ending=ending)
+            require_writable(target, force=True, ending=ending)
     only, faults = tuple(case or ()), tuple[Fault, ...]()
     if unknown := [name for name in only if name not in CASES]:
         raise ValueError(f"there is no case {unknown[0]!r}: it must be {', '.join(CASES)}")

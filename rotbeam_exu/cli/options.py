@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from cyclopts import Parameter, Token
 
-import analytic
 from analytic import AnyBlade
 from analytic.description import kinds_of
 from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
 from ..fem.lazily import Frame
-from .endings import telling_what_is_kept
+from .job import telling_what_is_kept
 from .motion import ChosenMotion
 from .output import counter
 
@@ -30,13 +28,12 @@ if TYPE_CHECKING:
 
 
 def whole(_: Any, tokens: Sequence[Token]) -> int:
-    """Read a whole number in decimal digits: 2.5 is none, and neither are 1e3 and 0x10."""
+    """Read a whole number: 2.5 is none, which cyclopts would round."""
     text = tokens[0].value
-    if not re.fullmatch(r"[+-]?[0-9]+", text):
-        raise ValueError(f"it must be a whole number in decimal digits, got {text!r}")
-    if len(text) > 300:
-        raise ValueError(f"it must be a number, got {len(text)} digits")
-    return int(text)
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f"it must be a whole number, got {text!r}") from None
 
 
 Whole = Annotated[int, Parameter(converter=whole)]
@@ -70,47 +67,21 @@ def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
     raise ValueError(f"there is no {what} {text!r}: it must be {', '.join(by_name)} or all")
 
 
-def spelled_as(known: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], str]:
-    """Return a converter to the known name that differs in upper and lower case only, if any.
-
-    The names are asked for when the option is given, for --help needs no more than its own.
-    """
-    return lambda _, tokens: _spelled(tokens[0].value, known())
-
-
-def _spelled(text: str, known: Iterable[str]) -> str:
-    return {name.lower(): name for name in known}.get(text.lower(), text)
-
-
-def element_names() -> tuple[str, ...]:
-    """Return the names of the formulations."""
-    from ..fem.elements import FORMULATIONS
-
-    return tuple(FORMULATIONS)
-
-
-def element_of(name: str, options: Mapping[str, object] | None = None) -> Formulation:
+def element_of(name: str) -> Formulation:
     """Return the formulation of a name, or of one's own class as module:Class."""
     from ..fem.elements import formulation
 
     module, colon, kind = name.partition(":")
     if not colon:
-        return formulation(name, options)
+        return formulation(name)
     sys.path.insert(0, str(Path.cwd()))  # as of `python -m`; a sweep's workers need it too
     try:
-        return formulation(getattr(import_module(module), kind)(**(options or {})))
+        return formulation(getattr(import_module(module), kind)())
     except (AttributeError, ImportError, TypeError) as error:
         raise ValueError(
             f"no element can be made of {name}: {error}; give module:Class, the module in this "
             "folder or installed"
         ) from error
-
-
-Element = Annotated[str, Parameter(converter=spelled_as(element_names))]
-"""Name of a formulation; `formulation` refuses unknown ones."""
-
-VariantName = Annotated[str, Parameter(converter=spelled_as(lambda: analytic.VARIANTS))]
-"""Name of a variant; `reduced_model` refuses unknown ones."""
 
 
 @Parameter(name="*")
@@ -123,8 +94,6 @@ class Discretization:
     element
         Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in
         space space_cable, space_exact; or one's own, as module:Class.
-    option
-        Option of the formulation as name=value; repeat it for several.
     elements
         Number of elements, 16 unless given.
     step
@@ -135,8 +104,7 @@ class Discretization:
         Coordinates of the model, inertial unless given.
     """
 
-    element: Element | None = None
-    option: list[str] | None = None
+    element: str | None = None
     elements: Whole | None = None
     step: float | None = None
     duration: float | None = None
@@ -148,25 +116,13 @@ class Discretization:
         Step and duration may be left to `chosen_motion`.
         """
         mine = {name: value for name, value in vars(self).items() if value is not None}
-        chosen = {"element": "cable", "elements": 16, "frame": "inertial", **numerics, **mine}
-        chosen["element"] = _spelled(chosen["element"], element_names())
-        return replace(self, **chosen)
-
-    @property
-    def options(self) -> dict[str, object]:
-        """Options of the formulation by name."""
-        return dict(map(_name_and_value, self.option or []))
+        usual = {"element": "cable", "elements": 16, "frame": "inertial"}
+        return replace(self, **{**usual, **numerics, **mine})
 
     @property
     def name(self) -> str:
-        """Formulation, options and mesh as part of a file's name."""
-        options = [f"{name}-{value}" for name, value in self.options.items()]
-        return "-".join([f"{self.element}".rpartition(":")[2], *options, f"{self.elements}"])
-
-    @property
-    def title(self) -> str:
-        """Formulation and options for a reader."""
-        return ", ".join([f"{self.element}", *(f"{k}={v}" for k, v in self.options.items())])
+        """Formulation and mesh as part of a file's name."""
+        return f"{self.element}".rpartition(":")[2] + f"-{self.elements}"
 
     def case(self, beam: AnyBlade, motion: ChosenMotion, loads: Sequence[Load] = ()) -> RunCase:
         """Return the case of a motion, whose step and duration are chosen."""
@@ -175,7 +131,7 @@ class Discretization:
         mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
         return RunCase(
             beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
-            element=element_of(f"{self.element}", self.options), loads=loads, **mesh,
+            element=element_of(f"{self.element}"), loads=loads, **mesh,
         )  # fmt: skip
 
 
@@ -225,12 +181,9 @@ def _shapes() -> dict[str, Any]:
     return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
 
 
-_Section = Annotated[
-    str,
-    Parameter(
-        help=f"The section out of the plane: {', '.join(_shapes())}, or {_OF_FILE}, that of the "
-        "file."
-    ),
+_Section: Any = Annotated[
+    Literal[(*_shapes(), _OF_FILE)],
+    Parameter(help=f"The section out of the plane; {_OF_FILE} is that of the file."),
 ]
 
 
@@ -259,12 +212,7 @@ class SectionOptions:
 
     def of(self, beam: AnyBlade) -> AnyBlade:
         """Return the beam with the section asked for, by default its own."""
-        kinds = _shapes()
-        kind = kinds.get(self.section)
-        if kind is None and self.section != _OF_FILE:
-            raise ValueError(
-                f"--section must be {', '.join(kinds)} or {_OF_FILE}, got {self.section!r}"
-            )
+        kind = _shapes().get(self.section)
         sides = kind is not None and "ratio" in (field.name for field in fields(kind))
         if self.ratio is not None and not sides:
             raise ValueError(
@@ -272,11 +220,6 @@ class SectionOptions:
             )
         if kind is None:
             return beam
-        if sides and self.ratio is None and beam.gyration.area is None:
-            raise ValueError(
-                "a blade has EA and EI, but no area that tells its width: give --ratio, height in "
-                "the plane over width"
-            )
         if self.ratio is None:
             return beam.with_shape(kind(poisson_ratio=self.poisson_ratio))
         # With another material than the beam's, of which the blade knows none.
@@ -297,16 +240,3 @@ class SectionOptions:
 DISCRETIZATION, RESULTS = Discretization(), Results()
 SECTION, WORKERS = SectionOptions(), Workers()
 """Nothing given."""
-
-
-def _name_and_value(text: str) -> tuple[str, object]:
-    """Split name=value; what reads as a number is one."""
-    name, equals, value = text.partition("=")
-    if not (name and equals and value):
-        raise ValueError(f"an option is given as name=value, got {text!r}")
-    for number in (int, float):
-        try:
-            return name, number(value)
-        except ValueError:
-            continue
-    return name, value

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import math
-import os
 import sys
 import time
 import unicodedata
@@ -53,12 +52,8 @@ def harmless(text: str) -> str:
     )
 
 
-def ready_streams() -> None:
-    """Let standard output and error exist, and write UTF-8, also to pipes and files of Windows."""
-    # Closed ones, as by >&-, are None; a new file takes their number, which no other then gets.
-    nowhere = Path(os.devnull)
-    sys.stdout = sys.stdout or nowhere.open("w", encoding="utf-8")
-    sys.stderr = sys.stderr or nowhere.open("w", encoding="utf-8")
+def write_utf8() -> None:
+    """Let standard output and error write UTF-8, also to pipes and files of Windows."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="replace")
@@ -69,16 +64,11 @@ def print_columns(
     form: Format = "table",
     *,
     title: str = "",
-    header: bool = True,
 ) -> None:
-    """Print named columns of equal length; floats in full in CSV, to 7 digits in a table.
-
-    A CSV may go on without its `header`.
-    """
+    """Print named columns of equal length; floats in full in CSV, to 7 digits in a table."""
     if form == "csv":
         writer = csv.writer(sys.stdout, lineterminator="\n")
-        if header:
-            writer.writerow(columns)
+        writer.writerow(columns)
         writer.writerows(zip(*columns.values(), strict=True))
         return
     table, texts = Table(), list(map(_cells, columns.values()))
@@ -117,6 +107,12 @@ def print_text(text: str | Text, *, stderr: bool = False) -> None:
     console.print(text, soft_wrap=not console.is_terminal)
 
 
+def print_message(title: str, style: str, text: str) -> None:
+    """Print a sentence after its title on standard error."""
+    text = harmless(" ".join(text.split()))
+    print_text(Text.assemble((title, style), " ", text), stderr=True)
+
+
 def print_note(text: str) -> None:
     """Print a sentence below a table, in lines as wide as a table may be."""
     new_console().print(text, soft_wrap=False)
@@ -127,10 +123,10 @@ def print_line(title: str, text: str) -> None:
     print_text(f"{title:<22}{text}")
 
 
-def print_written(paths: Iterable[Path], *, stderr: bool = False) -> None:
+def print_written(paths: Iterable[Path]) -> None:
     """Print the files written, one path a line."""
     for path in paths:
-        new_console(stderr=stderr).print(f"written {path}")
+        new_console().print(f"written {path}")
 
 
 def _cells(column: Sequence[str | float]) -> list[str]:

@@ -13,7 +13,7 @@ from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Job
 from .motion import Config, SteadySpeed, chosen_times, configured, motion_of, refuse_rest
-from .options import RESULTS, Discretization, Element, Results, Whole
+from .options import RESULTS, Discretization, Results, Whole
 from .output import counter, formatted, print_columns, print_note
 
 
@@ -23,7 +23,7 @@ def ramp(
     longest: float | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
-    element: Element | None = None,
+    element: str | None = None,
     elements: Whole | None = None,
     config: Config = None,
     results: Results = RESULTS,

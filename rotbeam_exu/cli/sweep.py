@@ -26,7 +26,6 @@ def sweep(
     discretization: Discretization = DISCRETIZATION,
     driving: Driving = DRIVING,
     workers: Workers = WORKERS,
-    shard: str = "1/1",
     config: Path | None = None,
     results: Results = RESULTS,
 ) -> None:
@@ -41,8 +40,6 @@ def sweep(
         Steady angular velocities [rad/s].
     ramp_time
         Ramp times T [s].
-    shard
-        Part k of n of the grid, as 1/4, for job arrays that share a cache.
     config
         TOML file with the beam, and optionally [numerics]; a speed or ramp time in its [motion] is
         the grid's only one, unless others are given.
@@ -51,7 +48,7 @@ def sweep(
     --------
     $ rotbeam sweep
     $ rotbeam sweep --omega 4 6 --ramp-time 2.5 3 --step 2e-3 -o quick
-    $ rotbeam sweep --config beam.toml --shard 1/24 --jobs 1
+    $ rotbeam sweep --config beam.toml --cache runs --jobs 1
     """
     from ..sweeps.grid import sweep as run_sweep
 
@@ -61,7 +58,6 @@ def sweep(
     omegas, ramp_times = _grid(file, omega, ramp_time)
     refuse_rest(*omegas)
     motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
-    part = _shard(shard)
     count = len(omegas) * len(ramp_times)
     one = numerics.case(beam, motion, driving.chosen(file.loads))
 
@@ -75,12 +71,9 @@ def sweep(
                 elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
                 loads=one.loads,
                 jobs=workers.jobs, cache=workers.cache, progress=progress, on_error="record",
-                shard=part,
             )  # fmt: skip
 
-    name = f"sweep-{numerics.name}"
-    name += "" if part == (1, 1) else f"-shard-{part[0]}-{part[1]}"
-    path = results.out / name
+    path = results.out / f"sweep-{numerics.name}"
     failed = Job(
         path=path,
         inputs={**one.describe(), "omega": omegas, "ramp_time": ramp_times},
@@ -131,10 +124,3 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
         print_text(f"failed at {where}: {sentence}")
     return sum(map(len, failed.values()))
-
-
-def _shard(text: str) -> tuple[int, int]:
-    part, _, parts = text.partition("/")
-    if not (part.isdecimal() and parts.isdecimal()):
-        raise ValueError(f"shard must read k/n, as 1/4, got {text!r}")
-    return int(part), int(parts)

@@ -12,7 +12,7 @@ from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
 from .motion import Config, configured, motion_of
-from .options import Element, element_of
+from .options import element_of
 from .output import counter, print_columns, print_note
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ _SHORT = {
 }  # fmt: skip
 
 
-def verify(*, element: list[Element] | None = None, config: Config = None) -> None:
+def verify(*, element: list[str] | None = None, config: Config = None) -> None:
     """Judge elements by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.

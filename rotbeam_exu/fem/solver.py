@@ -16,9 +16,6 @@ from analytic.lazily import sparse
 from .elements.formulation import Chain, Formulation
 from .lazily import Frame, exudyn, items
 
-_TOLERANCE = 1e-9
-"""Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""
-
 
 @contextmanager
 def exudyn_system() -> Iterator[exudyn.MainSystem]:
@@ -44,15 +41,6 @@ def static_settings(beam: AnyBlade, elements: int) -> exudyn.SimulationSettings:
     return settings
 
 
-def newton_tolerance(beam: AnyBlade, elements: int) -> float:
-    """Return the residual force at which Newton stops, for a beam of unit length.
-
-    A tolerance relative to the first residual would loosen with the axial stiffness, and one below
-    the round-off is never met, whereupon adaptive stepping halves steps silently.
-    """
-    return max(_TOLERANCE, round_off(beam, elements))
-
-
 def round_off(beam: AnyBlade, elements: int) -> float:
     """Return the residual force that Newton cannot go below, for a beam of unit length.
 
@@ -75,39 +63,6 @@ def mass_matrix(model: Formulation, beam: AnyBlade, elements: int) -> sparse.csr
         place = np.arange(model.angles.size) < model.dimensions
         mass *= np.outer(*2 * [np.resize(place, len(mass))])
     return sparse.csr_array(mass)
-
-
-def solver_settings(
-    steps: int,
-    step: float,
-    every: int,
-    frame: Frame,
-    *,
-    tolerance: float,
-    new_jacobians: bool = False,
-    spectral_radius: float = 0.9,
-) -> exudyn.SimulationSettings:
-    """Return settings of fixed steps, in which Newton stops at a force `tolerance`.
-
-    In the rotating frame each iteration calls back into Python, and a new Jacobian for each step
-    saves iterations; so it does where an element asks for `new_jacobians`. An element may also ask
-    for another `spectral_radius` in the inertial frame.
-    """
-    settings = exudyn.SimulationSettings()
-    integration = settings.timeIntegration
-    integration.endTime = steps * step
-    integration.numberOfSteps = steps
-    integration.adaptiveStep = False
-    integration.generalizedAlpha.spectralRadius = spectral_radius if frame == "inertial" else 1.0
-    integration.newton.relativeTolerance = 1e-14
-    integration.newton.absoluteTolerance = tolerance
-    integration.newton.modifiedNewtonJacUpdatePerStep = new_jacobians or frame == "rotating"
-    integration.verboseMode = 0
-    settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
-    settings.solution.file.write = False
-    # Exactly the interval: a little under it, samples would drift off the grid.
-    settings.solution.sensors.writePeriod = every * step
-    return settings
 
 
 def described(settings: exudyn.SimulationSettings, frame: Frame, every: int) -> dict[str, Any]:

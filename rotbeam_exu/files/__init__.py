@@ -1,1 +1,1 @@
-"""Files: beams in TOML, results in netCDF, sealed so that damage shows, and in CSV."""
+"""Files: beams in TOML, results in netCDF and in CSV."""

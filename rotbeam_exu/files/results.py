@@ -13,11 +13,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from analytic.warning import warn
+import numpy as np
 
 from ..lazily import xr
-from . import netcdf
-from .netcdf import plain, same
 
 OUTCOMES = frozenset(
     {"divergence_speed", "error", "failure", "residual", "sentence"}
@@ -36,7 +34,7 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     Raises
     ------
     ValueError
-        If the ending is neither; if something would not come back from netCDF as it is.
+        If the ending is neither; if netCDF cannot keep something of it.
     OSError
         If the file cannot be written; what stood there before then still stands.
 
@@ -57,12 +55,26 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     if target.suffix not in (".nc", ".csv"):
         raise ValueError(f"cannot write {target.name!r}: the ending must be .nc or .csv")
     try:
-        content = _table(run) if target.suffix == ".csv" else netcdf.encode(run)
-    except (LookupError, TypeError, ValueError) as error:
+        content = _table(run) if target.suffix == ".csv" else _netcdf(run)
+    except Exception as error:  # each layer has exceptions of its own for what it cannot keep
         raise ValueError(f"cannot write {target.name!r}: {error}") from error
     with whole_file(target) as partial:
         partial.write_bytes(content)
     return target
+
+
+def _netcdf(data: xr.Dataset) -> bytes:
+    # In memory first: HDF5 does not survive a disk that fills while it writes.
+    return bytes(_plainly(data).to_netcdf(engine="h5netcdf"))
+
+
+def _plainly(data: xr.Dataset) -> xr.Dataset:
+    """Return a copy without another file's encoding, its attributes Python's numbers and text."""
+    data = data.drop_encoding()
+    data.attrs = plain(data.attrs)
+    for variable in data.variables.values():
+        variable.attrs = plain(variable.attrs)
+    return data
 
 
 def _table(data: xr.Dataset) -> bytes:
@@ -74,24 +86,21 @@ def _table(data: xr.Dataset) -> bytes:
     for name, value in data.attrs.items():
         entry = f"{name} = {json.dumps(plain(value), ensure_ascii=False, default=str)}"
         out.writelines(f"# {line}\n" for line in entry.splitlines())
-    columns = [data[name] for name in dict.fromkeys([*data.sizes, *data.variables])]
-    csv.writer(out, lineterminator="\n").writerow(map(_title, columns))
+    if data.sizes:
+        rows = data.to_dataframe(dim_order=list(data.sizes)).reset_index()
+    else:
+        rows = data.expand_dims("row").to_dataframe()
+    rows = rows.rename(columns={name: _title(data[name]) for name in rows})
+    rows.head(0).to_csv(out, index=False)
     # Text in quotes, for those who skip whatever follows a "#".
-    rows = csv.writer(out, lineterminator="\n", quoting=csv.QUOTE_NONNUMERIC)
-    rows.writerows(zip(*(_spread(column.variable, data) for column in columns), strict=True))
+    quoted = csv.QUOTE_NONNUMERIC
+    rows.to_csv(out, index=False, header=False, quoting=quoted, na_rep="nan")
     return out.getvalue().encode()
 
 
 def _title(array: xr.DataArray) -> str:
     units = array.attrs.get("units", "")
     return str(array.name) if units in ("", "1") else f"{array.name} [{units}]"
-
-
-def _spread(variable: xr.Variable, data: xr.Dataset) -> list[Any]:
-    """Return the values at every point of the whole grid: numbers, truth values, or text."""
-    whole: xr.Variable = variable.set_dims(dict(data.sizes))  # type: ignore[no-untyped-call]
-    values = whole.transpose(*data.sizes).to_numpy().ravel()
-    return list((values if values.dtype.kind in "fiub" else values.astype(str)).tolist())
 
 
 def parts(data: xr.Dataset) -> dict[str, xr.Dataset]:
@@ -119,14 +128,9 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     Raises
     ------
     ValueError
-        If the file is a table, cannot be read, or was damaged or changed since it was written.
+        If the file is a table, or cannot be read.
     FileNotFoundError
         If there is none.
-
-    Warns
-    -----
-    RotbeamWarning
-        If the file was not written by `save`, so that nothing tells whether it is damaged.
 
     Examples
     --------
@@ -139,17 +143,6 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     ...     print(load(save(data, Path(folder) / "mine.nc")).q.values)
     [0.  0.1]
     """
-    run, sealed = read(path)
-    if not sealed:
-        warn(
-            f"{path} was not written by `save`, or by an older version, so that damage would not "
-            "show; check its numbers, and save what was loaded"
-        )
-    return run
-
-
-def read(path: str | os.PathLike[str]) -> tuple[xr.Dataset, bool]:
-    """Return what `load` does, and instead of a warning whether a digest vouches for it."""
     source = Path(path)
     if not source.is_file():
         raise FileNotFoundError(f"there is no file {source}")
@@ -159,11 +152,16 @@ def read(path: str | os.PathLike[str]) -> tuple[xr.Dataset, bool]:
             "pandas.read_csv(path, comment='#')"
         )
     try:
-        return netcdf.decode(source.read_bytes())
-    except (LookupError, TypeError, ValueError) as error:
+        # Units such as "seconds" are for people, not for numpy's timedelta64.
+        data = xr.load_dataset(
+            io.BytesIO(source.read_bytes()), engine="h5netcdf", decode_times=False,
+            decode_timedelta=False,
+        )  # fmt: skip
+    except Exception as error:  # HDF5, h5py and xarray raise what the damage happens to meet
         raise ValueError(
             f"{source} is not a netCDF file that can be read ({error}); write it again"
         ) from error
+    return _plainly(data)
 
 
 def differing_inputs(
@@ -179,38 +177,29 @@ def differing_inputs(
     run : Dataset or mapping
         A result, or only its inputs by name, where it is not computed yet.
     path : path
-        A file that `save` wrote, or none. For a table the netCDF file of its name answers.
+        A netCDF file that `save` wrote, or none.
 
     Returns
     -------
     dict
-        By name of each input that differs, its values in `run` and in the file, None if missing.
-        `variables`, if the file has some that the result lacks; `file`, if it cannot be read. Empty
-        if there is no file, or if it may be replaced without loss.
+        By name of each input that differs, its values in `run` and in the file, None if missing;
+        `file`, if it cannot be read. Empty if there is no file, or if it may be replaced.
     """
-    target = Path(path)
-    kept = target.with_suffix(".nc") if target.suffix == ".csv" else target
-    if not target.exists() and not kept.exists():
+    if not Path(path).exists():
         return {}
     try:
-        there, _ = read(kept)
+        there = load(path)
     except (OSError, ValueError) as error:
         return {"file": (None, str(error))}
     mine, theirs = _inputs(run), _inputs(there)
     if not isinstance(run, xr.Dataset):
         # The grid of what is not computed yet is known where it is among the inputs.
         theirs = {name: theirs[name] for name in theirs if name in mine or name not in there.coords}
-    differing = {
+    return {
         name: (mine.get(name), theirs.get(name))
         for name in sorted(mine.keys() | theirs.keys())
-        if not same(mine.get(name), theirs.get(name))
+        if not _same(mine.get(name), theirs.get(name))
     }
-    if isinstance(run, xr.Dataset) and not there.variables.keys() <= run.variables.keys():
-        differing["variables"] = (
-            sorted(map(str, run.variables)),
-            sorted(map(str, there.variables)),
-        )
-    return differing
 
 
 def _inputs(run: xr.Dataset | Mapping[str, object]) -> dict[str, object]:
@@ -220,13 +209,29 @@ def _inputs(run: xr.Dataset | Mapping[str, object]) -> dict[str, object]:
     return {name: plain(value) for name, value in run.items() if name not in OUTCOMES}
 
 
+def plain(value: Any) -> Any:
+    """Return Python's numbers, text and lists of them for NumPy's and xarray's."""
+    if isinstance(value, (np.ndarray, np.generic, xr.DataArray)):
+        return np.asarray(value).tolist()
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, dict):
+        return {key: plain(item) for key, item in value.items()}
+    return value
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two plain values are equal, NaN to itself."""
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(_same, one, other))
+    return bool(one == other or (one != one and other != other))  # noqa: PLR0124
+
+
 @contextmanager
 def whole_file(target: Path) -> Iterator[Path]:
     """Give a path to write to; move it to `target` at the end, or remove it on any failure."""
-    # Named before it is made: a signal in between would leave what nobody knows.
     partial = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
     try:
-        partial.touch(exist_ok=False)
         yield partial
         partial.replace(target)
     except OSError as error:
@@ -235,31 +240,6 @@ def whole_file(target: Path) -> Iterator[Path]:
         raise
     finally:
         partial.unlink(missing_ok=True)
-
-
-@contextmanager
-def whole_folder(target: Path) -> Iterator[Path]:
-    """Give a folder to write into; move all of it to `target` at the end, or nothing on a failure.
-
-    `target` is new, or a folder that has nothing of the same name.
-    """
-    above = target.absolute().parent
-    try:
-        above.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{target.name}-", dir=above) as aside:
-            made = Path(aside, "made")
-            made.mkdir()
-            yield made
-            if target.exists() and any(target.iterdir()):
-                for one in sorted(made.iterdir()):
-                    one.rename(target / one.name)
-                return
-            if target.exists():
-                target.rmdir()
-            made.rename(target)
-    except OSError as error:
-        why = f"{error.strerror or error}; choose another folder"
-        raise OSError(f"cannot write to {target.parent}: {why}") from error
 
 
 def writable_folder(path: str | os.PathLike[str]) -> Path:

@@ -19,7 +19,7 @@ from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from ..fem.elements import Formulation, formulation
-from ..files.results import read, save, writable_folder
+from ..files.results import load, save, writable_folder
 from ..lazily import xr
 from ..runs.attributes import versions
 
@@ -54,11 +54,9 @@ class Cache:
         if not path.exists():
             return None
         try:
-            result, sealed = read(path)
+            result = load(path)
             if result.attrs.pop("case", None) != path.stem:
                 raise ValueError(f"{path} does not hold the case it is named after")
-            if not sealed:
-                raise ValueError(f"{path} was changed after it was written")
         except ValueError as error:
             aside = path.with_suffix(".damaged")
             path.replace(aside)

@@ -54,7 +54,6 @@ def sweep(
     cache: str | os.PathLike[str] | None = None,
     progress: Callable[[int, int], None] | None = None,
     on_error: OnError = "raise",
-    shard: tuple[int, int] = (1, 1),
 ) -> xr.Dataset:
     """Spin a beam up over a grid of speeds and ramp times, and measure each steady oscillation.
 
@@ -79,15 +78,13 @@ def sweep(
         Called with the cases done and their number.
     on_error : {"raise", "record"}
         Whether a failed case ends the sweep, or stays in the result with its sentence.
-    shard : (int, int)
-        Part k of n, from 1: only every n-th case is run, for job arrays that share a cache.
 
     Returns
     -------
     Dataset
         Over `omega` and `ramp_time`: amplitude, first_harmonic, offset and residual [-],
-        frequency, frequency_error and omega_n [rad/s], verdict ("passed", "failed" or, for a case
-        of another shard, "pending") and failure, the sentence.
+        frequency, frequency_error and omega_n [rad/s], verdict ("passed", "failed" or, in what an
+        error holds, "pending") and failure, the sentence.
 
     Raises
     ------
@@ -118,19 +115,13 @@ def sweep(
         raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
     if jobs is not None:
         jobs = whole_number("jobs", jobs)
-    part, parts = (whole_number("shard", number) for number in shard)
-    if part > parts:
-        raise ValueError(f"shard {part}/{parts}: the part must be between 1 and {parts}")
-    mine = list(cases)[part - 1 :: parts]
     store = None if cache is None else cache_of(cache, element)
     results: dict[tuple[float, float], xr.Dataset] = {}
     try:
-        for done, (point, result) in enumerate(
-            solved({point: cases[point] for point in mine}, store, executor, jobs), start=1
-        ):
+        for done, (point, result) in enumerate(solved(cases, store, executor, jobs), start=1):
             results[point] = result
             if progress is not None:
-                progress(done, len(mine))
+                progress(done, len(cases))
             if result.attrs["failure"] and on_error == "raise":
                 raise SimulationError(
                     f"omega = {point[0]:g} rad/s, ramp_time = {point[1]:g} s: "

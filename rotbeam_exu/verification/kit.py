@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_array
 
-from ..files.results import whole_folder
 from .cases import CASES, VERSION, Asked, Case, stated
 from .judgement import THRESHOLDS
 from .references import reference
@@ -37,7 +36,7 @@ SPACING = 0.01
 
 
 def write_kit(folder: str | os.PathLike[str]) -> Path:
-    """Write the kit, whole or not at all, and return the folder.
+    """Write the kit, and return the folder.
 
     Parameters
     ----------
@@ -56,11 +55,10 @@ def write_kit(folder: str | os.PathLike[str]) -> Path:
         what = "is not empty" if target.is_dir() else "is a file"
         raise FileExistsError(f"{target} {what}: name a folder that is new, or empty")
     contents = kit_files()
-    with whole_folder(target) as made:
-        for name, content in contents.items():
-            path = made / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
+    for name, content in contents.items():
+        path = target / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
     return target
 
 

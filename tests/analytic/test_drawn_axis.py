@@ -34,11 +34,6 @@ def test_axis_of_a_spin_up_is_the_beam(beam):
     np.testing.assert_allclose(arc, beam.length, rtol=2e-4)
 
 
-def test_without_points_there_is_no_axis(beam):
-    response = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), [0.1], tolerance=1e-5)
-    assert response.axis.shape == (1, 0, 2)
-
-
 @pytest.fixture(scope="module")
 def methods(beam):
     backbone = periodic_orbits(beam, 6.0, [0.1])

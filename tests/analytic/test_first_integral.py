@@ -64,32 +64,6 @@ def test_perturbation_error_falls_with_the_fourth_power(fitted_order, beam, vari
     assert 3.9 < fitted_order(a, error) < 4.1
 
 
-def test_orbit_conserves_the_first_integral_and_closes(beam):
-    model = reduced_model(beam, 4.0, "FrM")
-    x, v = model.orbit(0.2, n=101)
-    energy = 0.5 * (1 + model.g2 * x**2) * v**2 + 0.5 * model.w_n**2 * x**2 + 0.25 * model.g1 * x**4
-    np.testing.assert_allclose(energy, energy[0], rtol=1e-14)
-    assert x[0] == x[-1] == x.max() == 0.2
-    assert v[0] == pytest.approx(v[-1], abs=1e-15)
-    # It starts inward, and lies on the trajectory of Eq. 41.
-    assert v[1] < 0
-    run = solve_ivp(
-        equation_41(model.w_n, model.g1, model.g2),
-        (0.0, 2 * math.pi * beam.frequency_scale / model.exact_frequency(0.2)),
-        [0.2, 0.0],
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-14,
-    )
-    np.testing.assert_allclose(run.y[:, -1], [0.2, 0.0], atol=1e-10)
-    inside = np.abs(run.y[0]) < 0.15
-    on_orbit = np.interp(
-        run.y[0][inside & (run.y[1] < 0)], *(s[:51][::-1] for s in model.oscillator.orbit(0.2, 101))
-    )
-    # Linear interpolation between 50 points of an arc: (π/50)²/8 of the speed.
-    np.testing.assert_allclose(run.y[1][inside & (run.y[1] < 0)], on_orbit, rtol=1e-3)
-
-
 def test_frequency_of_vanishing_amplitude_is_natural(beam):
     model = reduced_model(beam, 4.0, "FrM")
     assert model.exact_frequency(0.0) == pytest.approx(model.omega_n, rel=1e-15)

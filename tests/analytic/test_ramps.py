@@ -138,12 +138,6 @@ def test_a_table_stays_between_its_speeds(times, speeds):
     assert table.acceleration(np.array([0.0, times[-1]])) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_a_table_is_a_value():
-    table = SpeedTable(np.array([0.0, 1.0, 2.0]), [0, 1, 2])
-    assert table == SpeedTable((0.0, 1.0, 2.0), (0.0, 1.0, 2.0))
-    assert hash(table) == hash(SpeedTable((0.0, 1.0, 2.0), (0.0, 1.0, 2.0)))
-
-
 def test_fastest_sees_what_is_above_both_ends():
     over = FourierRamp(start=2.0, omega=3.0, ramp_time=1.0, cosines=(-1.0,), sines=(4.0, -2.0))
     assert over.fastest == pytest.approx(over.rate(np.linspace(0.0, 1.0, 9999)).max(), rel=1e-6)
@@ -195,23 +189,16 @@ def test_what_turns_already_is_stretched_and_stays_so(beam):
     assert np.hypot(*response.tip.T) == pytest.approx(stretched, rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("motion", "side"),
-    [
-        (SpinUp(omega=0.2, ramp_time=60.0), -1.0),
-        (FourierRamp(start=0.3, omega=0.1, ramp_time=60.0), 1.0),
-    ],
-    ids=["up", "down"],
-)
-def test_a_slow_change_of_the_speed_is_quasi_static(beam, motion, side):
-    """The deflection is the acceleration's: v = -θ''·(K - w²M)⁻¹∫xφ, linear; it lags or leads."""
+def test_a_slow_change_of_the_speed_is_quasi_static(beam):
+    """The deflection is the acceleration's: v = -θ''·(K - w²M)⁻¹∫xφ, linear; it leads."""
+    motion = FourierRamp(start=0.3, omega=0.1, ramp_time=60.0)
     response = spin_up_response(beam, motion, [30.0], tolerance=1e-6)
     modes = linear_modes(beam, motion.rate(30.0), 8, theory=Theory(extension=False))
     x = np.linspace(0.0, 1.0, 4001)
     shapes = modes.shapes(x * beam.length)
     loads = np.trapezoid(x[:, None] * shapes, x, axis=0) / np.trapezoid(shapes**2, x, axis=0)
     static = -motion.acceleration(30.0) * beam.length * np.sum(loads / modes.frequencies**2)
-    assert np.sign(static) == side
+    assert static > 0.0
     assert response.q[0] == pytest.approx(static, rel=5e-3)  # (ω_1 T/2π)⁻² is 1e-3
 
 

@@ -21,7 +21,7 @@ from analytic import (
 )
 from analytic.reduced.any_blade import blade_oscillator
 from analytic.spin_up.residual import modes_over_speed
-from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
+from rotbeam_exu.paper import SPEEDS
 
 # By code that shares nothing with this one: speed, ramp time, what the exact transient leaves.
 QUIET = (
@@ -103,22 +103,6 @@ def test_closed_form_at_the_quiet_ramps(beam, omega, ramp_time, left):
     assert found == pytest.approx(left, abs=0.055 * left + 0.5 * digit)
 
 
-# 3.5 % below 0.25 in round numbers, 3.6 % at 6 rad/s in 3.25 s.
-BOUNDS = ((0.25, 0.037), (0.36, 0.05), (0.55, 0.095), (0.65, 0.14), (0.85, 0.26))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("omega", SPEEDS)
-def test_closed_form_on_the_24_spin_ups(beam, omega):
-    for ramp_time in RAMP_TIMES:
-        exact = residual_amplitude(beam, eq_1(omega, ramp_time), exact=True, tolerance=1e-4)
-        off = residual_amplitude(beam, eq_1(omega, ramp_time)) / exact - 1.0
-        assert 0.01 < off < next(bound for a, bound in BOUNDS if exact < a)
-        corrected = residual_amplitude(beam, eq_1(omega, ramp_time), corrected=True) / exact - 1.0
-        # The backbone's action takes the part that grows with the amplitude.
-        assert 0.005 < corrected < min(off, 0.035 if exact < 0.6 else 0.105)
-
-
 def test_closed_form_at_both_ends_of_the_paper(beam):
     for omega, ramp_time, off, corrected in ((2.0, 3.375, 0.013, 0.011), (8.0, 2.0, 0.256, 0.102)):
         spin_up = eq_1(omega, ramp_time)
@@ -129,16 +113,15 @@ def test_closed_form_at_both_ends_of_the_paper(beam):
 
 
 @pytest.mark.parametrize(
-    "omega", [2.0, *(pytest.param(omega, marks=pytest.mark.slow) for omega in (4.0, 6.0, 8.0))]
+    ("omega", "T", "left"),
+    # At 4 rad/s a minimum that is there by chance would be believed without a slope.
+    [pytest.param(*one, marks=[] if one[0] == 4.0 else pytest.mark.slow) for one in QUIET],
 )
-def test_quiet_ramp_times(beam, omega):
-    expected = [(T, left) for speed, T, left in QUIET if speed == omega]
-    found = quiet_ramp_times(beam, omega, longest=expected[-1][0] + 0.2)
-    for T, left in expected:
-        nearest = int(np.argmin(np.abs(found.ramp_times - T)))
-        assert found.ramp_times[nearest] == pytest.approx(T, abs=2e-3)
-        digit = 10.0 ** math.floor(math.log10(left) - 1.0)
-        assert found.left[nearest] == pytest.approx(left, abs=0.51 * digit)
+def test_quiet_ramp_times(beam, omega, T, left):
+    found = quiet_ramp_times(beam, omega, longest=T + 0.2)
+    assert found.ramp_times[-1] == pytest.approx(T, abs=2e-3)
+    digit = 10.0 ** math.floor(math.log10(left) - 1.0)
+    assert found.left[-1] == pytest.approx(left, abs=0.51 * digit)
 
 
 def test_designed_ramp(beam):
@@ -177,10 +160,10 @@ def test_order_of_what_a_wrong_frequency_leaves(beam, fitted_order, robust, erro
 
 
 def test_largest_deflection_on_the_way_is_kept(beam):
-    """Free it is 0.71 L."""
-    ramp = design_ramp(beam, 6.0, 2.0, largest=0.6)
+    """Free it is 0.32 L."""
+    ramp = design_ramp(beam, 2.0, 2.0, largest=0.2)
     motion = spin_up_response(beam, ramp, np.linspace(0.0, 2.0, 401))
-    assert np.abs(motion.q).max() <= 0.6 * beam.length
+    assert np.abs(motion.q).max() <= 0.2 * beam.length
     # The corrections end where 1e-6 of each mode is left for small oscillations.
     assert residual_amplitude(beam, ramp, exact=True) < 1e-5
 

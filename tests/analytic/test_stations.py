@@ -63,40 +63,22 @@ def answers(blade):
 
 
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
-@pytest.mark.parametrize(
-    "count",
-    [30, *(pytest.param(count, marks=pytest.mark.slow) for count in (2, 60, 200))],
-)
+@pytest.mark.parametrize("count", [30, pytest.param(200, marks=pytest.mark.slow)])
 def test_no_answer_depends_on_where_the_section_is_cut(count):
-    """A random blade of polynomials, and the same with its mass at random stations."""
+    """A random straight taper, and the same with mass, EI and EA at random stations.
+
+    Frequencies were once 1e-3 off with 21 stations, at any number of functions.
+    """
     random = np.random.default_rng(count)
-    bending = (random.uniform(0.4, 1.6), *random.uniform(-0.15, 0.3, 2))
-    axial = (1e6 * random.uniform(0.4, 1.6), 2e5 * random.uniform(-1.0, 1.0))
-    root, tip = random.uniform(0.4, 1.6, 2)
+    tapers = random.uniform(0.4, 1.6, (3, 2)) * [[1.0], [1.0], [1e6]]
     x = np.concatenate(([0.0], np.sort(random.uniform(0.0, 1.0, count - 2)), [1.0]))
-    stations = tuple(zip(x.tolist(), (root + (tip - root) * x).tolist(), strict=True))
-    whole, cut = (blade_of(mass, bending, axial) for mass in ((root, tip - root), stations))
+    whole = blade_of(*((root, tip - root) for root, tip in tapers.tolist()))
+    cut = blade_of(*(
+        tuple(zip(x.tolist(), (root + (tip - root) * x).tolist(), strict=True))
+        for root, tip in tapers.tolist()
+    ))  # fmt: skip
     for (name, one), (_, other) in zip(answers(whole), answers(cut), strict=True):
         assert other == pytest.approx(one, rel=1e-9), name
-
-
-@pytest.mark.parametrize(
-    "stations", [11, 41, *(pytest.param(n, marks=pytest.mark.slow) for n in (400, 10_000))]
-)
-def test_a_straight_taper_at_stations_is_the_polynomial(stations):
-    """As a hostile tester wrote it: 1e-3 off with 21 stations, at any number of functions."""
-    x = np.linspace(0.0, 1.0, stations)
-    straight, cut = (
-        blade_of(1.0, bending, 1e9)
-        for bending in ((1.0, -0.5), tuple(zip(x.tolist(), (1.0 - 0.5 * x).tolist(), strict=True)))
-    )
-    for inextensible in (False, True):
-        one, other = (
-            linear_modes(blade, 2.0, theory=Theory(extension=not inextensible)).frequencies
-            for blade in (straight, cut)
-        )
-        assert other == pytest.approx(one, rel=1e-9)
-    assert cut.omega_0 == pytest.approx(straight.omega_0, rel=1e-12)
 
 
 def test_a_real_blade_needs_no_more_functions_than_a_uniform_one(nrel):

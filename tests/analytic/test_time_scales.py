@@ -2,20 +2,8 @@
 
 import numpy as np
 import pytest
-import sympy as sp
 
 from analytic import Beam, reduced_model
-from analytic.reduced.symbolic import G1, G2, OMEGA_N, multiple_time_scales
-
-
-def test_coefficients_of_the_solution():
-    solution = multiple_time_scales()
-    model = reduced_model(Beam.reference(), 4.0, "CI")
-    assert sp.simplify(solution.lambda_omega - (G2 / 4 - 3 * G1 / (8 * OMEGA_N**2))) == 0
-    assert sp.simplify(solution.lambda_x - (G2 / 16 - G1 / (32 * OMEGA_N**2))) == 0
-    values = {OMEGA_N: model.w_n, G1: model.g1, G2: model.g2}
-    assert model.lambda_omega == pytest.approx(float(solution.lambda_omega.subs(values)))
-    assert model.lambda_x == pytest.approx(float(solution.lambda_x.subs(values)))
 
 
 @pytest.mark.parametrize("omega", [0.0, 4.0])

@@ -20,8 +20,8 @@ from rotbeam_exu.verification.submission import Declaration
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
 SECONDS = re.compile(
-    r"rotbeam (run|run --.*|doctor|campbell|campbell --section.*|"
-    r"(reference|respond|stability|ramp|converge|compare|figure|animate|judge).*)"
+    r"rotbeam (run|run --.*|doctor|"
+    r"(reference|respond|stability|ramp|converge|compare|campbell|figure|animate|judge).*)"
 )
 BEAM = """
 [beam]

@@ -62,10 +62,8 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
 @pytest.mark.parametrize(
     ("load_option", "kind", "size"),
     [
-        (("--tip-force", "0.01"), "TipForce", 0.01),
         (("--distributed-force", "0.002"), "DistributedForce", 0.002),
         (("--gravity",), "Gravity", 9.81),
-        (("--gravity", "1.62"), "Gravity", 1.62),
     ],
 )
 def test_each_load_is_taken(call, tmp_path, load_option, kind, size):

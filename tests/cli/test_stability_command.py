@@ -113,7 +113,6 @@ def test_a_section_out_of_a_file(call, tmp_path, monkeypatch):
     ("options", "sentence"),
     [
         ((), "give --section rectangle or --section tube"),
-        (("--section", "tub"), "--section must be "),
         (("--section", "tube", "--ratio", "2"), "--section tube has none: leave it out"),
         (("--section", "rectangle", "--ratio", "0"), "ratio must be positive"),
         (("--section", "tube", "--mode", "0"), "mode must be at least 1"),
@@ -135,4 +134,4 @@ def test_a_blade_without_area_needs_the_ratio(call, tmp_path):
         "stability", "--omega", "2", "--section", "rectangle", "--config", file, "--out", tmp_path
     )
     assert code == 2
-    assert "give --ratio" in error
+    assert "give width in m, or ratio" in error

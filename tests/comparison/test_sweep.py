@@ -12,7 +12,6 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 import xarray as xr
@@ -129,16 +128,6 @@ def test_a_damaged_file_is_named_set_aside_and_computed_again(beam, serial, cach
     assert victim.with_suffix(".damaged").stat().st_size == 1000
 
 
-@pytest.mark.usefixtures("at_once")
-def test_a_number_changed_by_hand_is_not_believed(beam, serial, cache):
-    with h5py.File(min(cache.glob("*.nc")), "r+") as file:
-        file.attrs["amplitude"] = 0.5
-    with pytest.warns(RotbeamWarning, match="was changed after it was written; it is set aside"):
-        again = sweep(beam, **SMALL, **COARSE, jobs=1, cache=cache)
-    xr.testing.assert_identical(again, serial)
-    assert len(list(cache.glob("*.damaged"))) == 1
-
-
 def test_a_failed_case_stays_on_record_with_its_sentence(beam, tmp_path):
     # 9 s end 0.5 s after the longer ramp: less than two cycles.
     grid = {"omegas": [6.0], "ramp_times": [3.0, 8.5], "jobs": 1}
@@ -174,20 +163,6 @@ def test_numbers_of_numpy_are_numbers(beam, serial, cache):
     found = sweep(beam, **grid, **coarse, jobs=1, cache=cache)
     xr.testing.assert_identical(found, serial)
     assert {path.name for path in cache.glob("*.nc")} == known
-
-
-@pytest.mark.usefixtures("at_once")
-def test_shards_make_the_whole(beam, serial, tmp_path):
-    parts = [
-        sweep(beam, **SMALL, **COARSE, jobs=1, cache=tmp_path, shard=(k, 3)) for k in (1, 2, 3)
-    ]
-    done = np.array([(part["verdict"] == "passed").to_numpy() for part in parts])
-    assert done.sum(axis=0).tolist() == [[1, 1], [1, 1]]
-    assert len(list(tmp_path.glob("*.nc"))) == 4
-    merged = xr.where(parts[0]["verdict"] == "passed", parts[0]["frequency"], np.nan)
-    for part in parts[1:]:
-        merged = merged.fillna(part["frequency"])
-    assert np.array_equal(merged, serial["frequency"])
 
 
 class DyingPool(Executor):
@@ -285,11 +260,9 @@ def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
         ({"omegas": []}, "omegas must be a sequence of numbers"),
         ({"ramp_times": [3.0, 2.0, 3.0]}, "ramp_times holds 3 more than once"),
         ({"omegas": [-1.0]}, "omega must not be negative"),
-        ({"shard": (5, 4)}, "shard 5/4: the part must be between 1 and 4"),
         ({"on_error": "ignore"}, "unknown on_error 'ignore'"),
         ({"jobs": -1}, "jobs must be at least 1"),
         ({"jobs": True}, "jobs must be a whole number, got True"),
-        ({"shard": (1.5, 4)}, r"shard must be a whole number, got 1\.5"),
         ({"duration": 2.5}, "duration 2.5 s ends before .* begins at ramp_time 3 s; take a longer"),
         ({"element": "brick"}, "unknown element 'brick'"),
         ({"element": Cable}, "element must be the name of a formulation, or an instance"),

@@ -67,8 +67,6 @@ def test_equal_sentences_are_printed_once_with_all_their_places(call, tmp_path, 
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (["--shard", "5/4"], "shard 5/4: the part must be between 1 and 4"),
-        (["--shard", "two"], "shard must read k/n, as 1/4, got 'two'"),
         (["--omega", "4", "4"], "omegas holds 4 more than once"),
         (["--step", "nan"], "step must be finite, got nan s"),
         (["--omega", "0", "4"], "at omega = 0 rad/s the beam stays at rest"),

@@ -33,23 +33,3 @@ def elastic_force():
         return force, reference
 
     return evaluate
-
-
-@pytest.fixture(scope="session")
-def solve_as_a_user():
-    """Integrate a system in SI units with settings of the user's own; the tip's stored data."""
-
-    def solve(mbs, tip_sensor, *, end, steps, period):
-        settings = exudyn.SimulationSettings()
-        settings.timeIntegration.endTime = end
-        settings.timeIntegration.numberOfSteps = steps
-        settings.timeIntegration.generalizedAlpha.spectralRadius = 0.9
-        settings.timeIntegration.newton.relativeTolerance = 1e-8
-        settings.timeIntegration.newton.absoluteTolerance = 1e-6
-        settings.timeIntegration.adaptiveStep = False
-        settings.solution.file.write = False
-        settings.solution.sensors.writePeriod = period
-        mbs.SolveDynamic(settings)
-        return np.array(mbs.GetSensorStoredData(tip_sensor))
-
-    return solve

@@ -8,10 +8,8 @@ import pytest
 from analytic import Beam, SpinUp, linear_modes
 from analytic.exact.beam.steady import steady_rotation
 from rotbeam_exu import natural_frequencies, simulate
-from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.elements import Exact
 from rotbeam_exu.fem.linearization import Linearization
-from rotbeam_exu.fem.solver import exudyn_system
 
 BEAM = Beam.reference()
 HEAVY = BEAM.with_hub_radius(0.8).with_tip_mass(0.5)
@@ -77,20 +75,6 @@ def test_reissners_beam_takes_blades_too(beam):
 def test_what_is_not_modeled_is_refused(beam, make, element, sentence):
     with pytest.raises(ValueError, match=sentence):
         simulate(make(beam), SpinUp(omega=1.0, ramp_time=3.0), element=element)
-
-
-def test_the_model_in_a_system_of_ones_own_is_that_of_simulate(beam, solve_as_a_user):
-    """The user's own mbs, in SI units and with the user's own settings of the solver."""
-    blade, spin_up = beam.with_hub_radius(0.5).with_tip_mass(0.1), SpinUp(omega=3.0, ramp_time=3.0)
-    run = simulate(blade, spin_up, elements=8, duration=5.0, step=2e-3)
-    with exudyn_system() as mbs:
-        numbers = add_rotating_beam(mbs, blade, spin_up, elements=8)
-        assert len(numbers.nodes) == 9
-        mbs.Assemble()
-        stored = solve_as_a_user(mbs, numbers.tip_sensor, end=5.0, steps=2500, period=0.01)
-    here = run[["tip_x", "tip_y"]].interp(time=stored[:, 0], method="cubic")
-    for k, name in ((1, "tip_x"), (2, "tip_y")):
-        assert stored[:, k] == pytest.approx(here[name].to_numpy(), abs=1e-5)
 
 
 def test_cantilever_at_rest(beam):

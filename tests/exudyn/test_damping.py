@@ -24,12 +24,11 @@ from analytic import (
 from analytic.exact.beam.state import BeamState
 from analytic.exact.beam.steady import stretched_state
 from analytic.theory import Theory
-from rotbeam_exu import SimulationError, kicked, simulate
+from rotbeam_exu import kicked, simulate
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, SpaceCable, SpaceExact
 from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.fem.loading import Loading
 from rotbeam_exu.fem.solver import exudyn_system, mass_matrix
-from rotbeam_exu.runs.check import check_run, energy_drift
 
 
 def by_mass(beam, c):
@@ -63,7 +62,6 @@ THICK = Blade(
         (0.0, "cable", "inertial", "by mass"),
         (0.0, "exact", "rotating", VISCOUS),
         (6.0, "exact", "inertial", "by mass"),
-        pytest.param(6.0, "ancf3", "rotating", "by mass", marks=pytest.mark.slow),
     ],
 )
 def test_free_decay_is_that_of_the_exact_blade(beam, omega, element, frame, damping):
@@ -72,7 +70,7 @@ def test_free_decay_is_that_of_the_exact_blade(beam, omega, element, frame, damp
     exact = damping_ratios(blade, omega, 1)[0]
     start = periodic_orbits(beam, omega, [0.005])
     run = simulate(
-        blade, SteadyRotation(omega=omega), element=element, frame=frame, duration=8.0, step=4e-3,
+        blade, SteadyRotation(omega=omega), element=element, frame=frame, duration=5.0, step=4e-3,
         elements=16 if element == "exact" else 8, initial_state=lambda x: start.state(0, x),
     )  # fmt: skip
     frequency = linear_modes(beam, omega, 1).frequencies[0]
@@ -101,7 +99,7 @@ def test_flap_in_space_decays_as_that_of_the_exact_blade(element):
     ("blade", "omega", "air", "force", "frequency", "meshes", "steps", "periods"),
     [
         # Near its lag frequency: flap and torsion change sign each period and grow by 7.6.
-        (THICK.with_section_out_of_plane(0.3, 0.3), 1.0, 0.4, 0.3, 3.543, (16, 32), 6.25, 5.0),
+        (THICK.with_section_out_of_plane(0.3, 0.3), 1.0, 0.4, 0.3, 3.543, (12, 24), 9.0, 5.0),
         # The paper's beam as a strip, which sheared elements let start bent by small steps alone.
         pytest.param(
             Beam.reference().with_shape(Rectangle()), 2.0, 1.0, 0.6, 2.4, (48, 64), 43.0, 4.0,
@@ -155,7 +153,7 @@ def test_an_axial_vibration_decays_by_the_axial_damping(beam, element):
 
     # A load of no size, for samples as dense as its frequency wants them.
     run = simulate(
-        blade, SteadyRotation(omega=0.0), element=element, elements=16, duration=0.06, step=2e-5,
+        blade, SteadyRotation(omega=0.0), element=element, elements=8, duration=0.04, step=2e-5,
         loads=[TipForce(amplitude=0.0, frequency=omega)], frame="rotating", initial_state=stretched,
     )  # fmt: skip
     moved = run["tip_x"].to_numpy() - length
@@ -211,7 +209,6 @@ def test_the_air_brakes_the_axis_and_no_section_or_mass(beam, model):
     [
         ("cable", "inertial"),
         ("exact", "rotating"),
-        ("ancf3", "rotating"),
         ("space_exact", "inertial"),
     ],
 )
@@ -223,7 +220,7 @@ def test_the_energy_balance_closes_to_second_order_in_the_step(beam, element, fr
     errors = []
     for step in (8e-3, 4e-3):
         run = simulate(
-            blade, SpinUp(omega=6.0, ramp_time=3.0), element=element, elements=4, duration=4.8,
+            blade, SpinUp(omega=6.0, ramp_time=3.0), element=element, elements=2, duration=4.0,
             step=step, frame=frame,
         )  # fmt: skip
         balance = (run["jacobi_energy"] - run["supplied_energy"]).to_numpy()
@@ -244,31 +241,6 @@ def test_natural_frequencies_and_stretch_are_those_without_damping(beam):
         )
         assert np.array_equal(free.frequencies(3), other.frequencies(3))
         assert free.stretch == other.stretch
-
-
-@pytest.fixture(scope="module")
-def decaying(beam):
-    blade = beam.with_damping(Damping(bending=0.02, external=0.01))
-    return simulate(blade, SpinUp(omega=4.0, ramp_time=3.0), elements=4, duration=6.0, step=5e-3)
-
-
-def test_energy_that_nothing_took_fails(decaying):
-    assert decaying.attrs["verdict"] == "passed"
-    assert energy_drift(decaying)[0] < 1e-3
-    leak = np.linspace(0.0, 2.0, decaying.sizes["time"])
-    run = decaying.assign(jacobi_energy=decaying["jacobi_energy"] - leak)
-    sentence = "drift of the Jacobi energy E - ω L_z from the energy supplied over the largest"
-    with pytest.raises(SimulationError, match=f"{sentence}.*: take a smaller step than 0.005 s"):
-        check_run(run)
-    # As long as it decays, the energy itself is none that stays.
-    with pytest.raises(SimulationError, match="drift of the steady Jacobi energy"):
-        check_run(decaying.drop_vars("supplied_energy"))
-
-
-def test_an_undamped_run_has_no_energy_to_account_for(beam):
-    run = simulate(beam, SpinUp(omega=4.0, ramp_time=3.0), elements=2, duration=4.0, step=1e-2)
-    assert "supplied_energy" not in run
-    assert "loads" not in run.attrs
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,15 @@ import pytest
 from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 
-from analytic import Gravity, Rectangle, SpinUp, SteadyRotation
+from analytic import (
+    Damping,
+    Gravity,
+    Rectangle,
+    SpeedRipple,
+    SpinUp,
+    SteadyRotation,
+    TipForce,
+)
 from rotbeam_exu import simulate
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.solver import exudyn_system
@@ -307,10 +315,13 @@ def test_a_body_is_no_clamp(beam):
 
 
 def test_the_settings_are_those_of_simulate(beam):
-    """In any units: forces of a system in mm and t are 1000 times those in SI, N to mN."""
-    run = simulate(beam, SPIN_UP, elements=4, duration=2.0, step=4e-3)
+    """Of a blade with all there is; in any units: forces in mm and t are 1000 times those in SI."""
+    blade = beam.with_hub_radius(0.5).with_tip_mass(0.1).with_damping(Damping(external=0.02))
+    loads = [Gravity(2.0), SpeedRipple(amplitude=0.1, frequency=5.0)]
+    loads += [TipForce(amplitude=0.3, frequency=2.0)]
+    run = simulate(blade, SPIN_UP, elements=4, duration=2.0, step=4e-3, loads=loads)
     with exudyn_system() as mbs:
-        one = add_rotating_beam(mbs, beam, SPIN_UP, elements=4)
+        one = add_rotating_beam(mbs, blade, SPIN_UP, elements=4, loads=loads)
         sensor = one.add_torque_sensor(mbs)
         solve(mbs, one, step=4e-3, every=50)
         assert stored(mbs, sensor)[-1] == pytest.approx(run.clamp_torque[-1].item(), rel=1e-7)

@@ -110,20 +110,6 @@ def test_constraints_and_energy(main_job, fine, frame):
     assert ripple < {"inertial": 1.5e-5, "rotating": 6e-6}[frame]
 
 
-def test_velocity_is_the_rate_of_q(main_job):
-    slope = np.gradient(main_job["q"], main_job["time"])
-    # Central differences at 5 ms: h²/6 times the third derivative (25 rad/s)³ of small content.
-    inner = slice(1, -1)
-    assert np.abs(slope - main_job["q_dot"])[inner].max() < 2e-3
-
-
-def test_tip_stays_on_its_definition(main_job):
-    """Eq. 16: q is the tip along the axis that turns with the clamp."""
-    theta = main_job["angle"]
-    q = -np.sin(theta) * main_job["tip_x"] + np.cos(theta) * main_job["tip_y"]
-    assert np.abs(q - main_job["q"]).max() < 1e-13 * 8.0
-
-
 def test_a_beam_at_rest_stays_at_rest(beam):
     run = simulate(beam, SpinUp(omega=0.0, ramp_time=1.0), elements=4, duration=2.0, step=1e-2)
     assert np.abs(run["q"]).max() < 1e-15
@@ -149,18 +135,10 @@ DOWN = FourierRamp(start=6.0, omega=1.0, ramp_time=2.0, cosines=(-1.2, 0.2), sin
 TABLE = SpeedTable([0.0, 1.0, 2.0, 3.0], [2.0, 3.0, 5.0, 6.0])
 
 
-@pytest.mark.parametrize(
-    ("motion", "frame"),
-    [
-        (DOWN, "inertial"),
-        (TABLE, "rotating"),
-        pytest.param(DOWN, "rotating", marks=pytest.mark.slow),
-        pytest.param(TABLE, "inertial", marks=pytest.mark.slow),
-    ],
-)
+@pytest.mark.parametrize(("motion", "frame"), [(DOWN, "inertial"), (TABLE, "rotating")])
 def test_a_change_of_the_speed_is_the_exact_transient(beam, motion, frame):
     run = simulate(beam, motion, duration=4.0, step=2e-3, frame=frame)
-    exact = spin_up_response(beam, motion, run["time"].to_numpy(), tolerance=1e-6)
+    exact = spin_up_response(beam, motion, run["time"].to_numpy(), tolerance=1e-5)
     # 16 cubic elements at 2 ms; the exact beam swings to 0.1 of its length and more.
     assert run["q"].to_numpy() == pytest.approx(exact.q, abs=2e-4 * beam.length)
     assert np.abs(exact.q).max() > 0.1 * beam.length

@@ -1,6 +1,5 @@
 """The answer does not depend on the units, nor on the size, stiffness or mesh of the beam."""
 
-import itertools
 import math
 
 import numpy as np
@@ -47,31 +46,15 @@ def spun_up(beam, speed_ratio, steps=2000, **options):
     return run["q"].to_numpy() / beam.length
 
 
-def in_other_units(beam, length, mass, time):
-    """The same beam by other numbers: units of length [m], mass [kg] and time [s]."""
-    return Beam(
-        length=beam.length / length,
-        area=beam.area / length**2,
-        second_moment=beam.second_moment / length**4,
-        youngs_modulus=beam.youngs_modulus * length * time**2 / mass,
-        density=beam.density * length**3 / mass,
-    )
-
-
 @pytest.mark.parametrize(
     ("beam", "speed_ratio", "frame"),
     [
-        pytest.param(beam, ratio, frame, id=f"{name}-{ratio}-{frame}", marks=marks)
-        for name, beam, fast in (
-            ("bar", STEEL_BAR, (1.5, "inertial")),
-            ("blade", BLADE, (1.5, "rotating")),
-            ("reed", REED, (0.5, "rotating")),
-        )
-        for ratio, frame in itertools.product((0.5, 1.5), ("inertial", "rotating"))
-        for marks in [() if (ratio, frame) == fast else pytest.mark.slow]
-    ]
-    + [pytest.param(slender(1e-2), 0.5, "inertial", marks=pytest.mark.slow)]
-    + [(slender(1e-2), 0.5, "rotating")],
+        (STEEL_BAR, 1.5, "inertial"),
+        (BLADE, 1.5, "rotating"),
+        (REED, 0.5, "rotating"),
+        (slender(1e-2), 0.5, "rotating"),
+    ],
+    ids=["bar", "blade", "reed", "stout"],
 )
 def test_real_beams_of_any_size_follow_the_exact_one(beam, speed_ratio, frame):
     q = spun_up(beam, speed_ratio, elements=8, frame=frame)
@@ -97,7 +80,7 @@ POWERS = st.floats(-9.0, 9.0)
 @given(st.floats(-6.0, 6.0), POWERS, POWERS, st.floats(-7.0, -3.0), st.booleans())
 def test_q_over_length_is_the_same_in_any_units(length, mass, time, mu, inertial):
     beam, frame = slender(10.0**mu), "inertial" if inertial else "rotating"
-    other = in_other_units(beam, 10.0**length, 10.0**mass, 10.0**time)
+    other = beam.in_units(10.0**length, 10.0**mass, 10.0**time)
     here, there = (spun_up(b, 1.2, steps=600, elements=4, frame=frame) for b in (beam, other))
     # Forces of the size EA cancel to EI/L²: what is left of double precision.
     assert np.abs(here - there).max() < 1e-9 + 1e-15 / 10.0**mu
@@ -108,14 +91,11 @@ def test_q_over_length_is_the_same_in_any_units(length, mass, time, mu, inertial
     assert ratio[0] == pytest.approx(ratio[1], rel=1e-9)
 
 
-@pytest.mark.parametrize("frame", [pytest.param("inertial", marks=pytest.mark.slow), "rotating"])
 @pytest.mark.parametrize("element", ["cable", "exact"])
-def test_slenderness_hardly_matters(element, frame):
+def test_slenderness_hardly_matters(element):
     """As μ → 0 the response settles; so stiff an axis must neither stop nor bend the solver."""
-    # In the inertial frame each step turns the stiff axis: Newton's method wants it to be small.
-    steps = {"inertial": 6000, "rotating": 800}[frame]
     stiff, stiffer, stiffest = (
-        spun_up(slender(mu), 1.2, steps=steps, elements=4, element=element, frame=frame)
+        spun_up(slender(mu), 1.2, steps=800, elements=4, element=element, frame="rotating")
         for mu in (1e-6, 1e-8, 1e-10)
     )
     # Extensibility shifts λ_ω by 5 μ; an element of the exact beam is 2e-3 softer at 1e-6.
@@ -124,16 +104,13 @@ def test_slenderness_hardly_matters(element, frame):
     assert np.abs(stiffer - stiffest).max() < 2e-4
 
 
-@pytest.mark.parametrize("elements", [128, 256, pytest.param(512, marks=pytest.mark.slow)])
-def test_the_steady_state_of_fine_meshes(beam, elements):
+def test_the_steady_state_of_a_fine_mesh(beam):
     k = 6.0 * math.sqrt(beam.density / beam.youngs_modulus)
     stretch = math.tan(k * beam.length) / k - beam.length
-    assert Linearization.of(beam, 6.0, elements=elements).stretch == pytest.approx(
-        stretch, rel=1e-9
-    )
+    assert Linearization.of(beam, 6.0, elements=256).stretch == pytest.approx(stretch, rel=1e-9)
 
 
-@pytest.mark.parametrize("mu", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize("mu", [1e-2, 1e-6, 1e-10])
 def test_natural_frequencies_of_any_slenderness(mu):
     beam = slender(mu)
     omega = min(6.0, 0.5 * beam.burst_speed)

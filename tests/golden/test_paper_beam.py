@@ -53,7 +53,6 @@ def reduced(beam):
             "lambda_omega": [model.lambda_omega for model in pair],
             "lambda_x": [model.lambda_x for model in pair],
             "frequency": [float(model.exact_frequency(0.2)) for model in pair],
-            "orbit": [model.orbit(0.2, 8)[1].tolist() for model in pair],
         }
         for name, pair in models.items()
     }

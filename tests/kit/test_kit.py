@@ -229,13 +229,6 @@ def test_a_folder_that_holds_something_is_refused(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
 
 
-def test_the_kit_is_whole_or_not_there(tmp_path, monkeypatch):
-    monkeypatch.setattr(room, "kit_files", lambda: {"a": b"1", "a/b": b"2"})
-    with pytest.raises(OSError, match="a"):
-        write_kit(tmp_path / "kit")
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_an_empty_folder_is_taken_by_the_command(call, tmp_path, monkeypatch):
     monkeypatch.setattr(room, "kit_files", lambda: {"README.md": b"read me"})
     (tmp_path / "kit").mkdir()

@@ -48,20 +48,6 @@ def test_spin_up(run, beam):
     assert found["ratio"] == pytest.approx(0.99789, abs=2e-5)
 
 
-def test_out_of_plane(run):
-    found = run("out_of_plane")
-    rectangle, tube, length = found["rectangle"], found["tube"], 8.0
-    # 64 elements: 0.705 s, and 128: 0.710 s.
-    assert found["left"] == pytest.approx(0.707, abs=0.005)
-    x, y, _ = rectangle["axis"].isel(node=-1).to_numpy().T
-    # Both have -0.6955 L, and a turn behind the clamp at 3 s, -1.023.
-    assert x.min() / length == pytest.approx(-0.6955, abs=0.005)
-    behind = np.interp(3.0, rectangle["time"], np.unwrap(np.arctan2(y, x))) / (2.0 * np.pi)
-    assert behind == pytest.approx(-1.02, abs=0.03)
-    assert abs(tube["axis"].sel(direction="z")).max() <= 1.001e-3 * length
-    assert "<img" in found["animation"].to_jshtml()
-
-
 def test_quiet_spin_up(run, beam):
     left = run("quiet_spin_up")["left"]
     # The closed form of Eq. 1 is a few percent high; 16 elements leave 1e-6 themselves.
@@ -207,29 +193,53 @@ def test_internal_resonance(run):
     assert found["branch"].folds[0].amplitude < found["resonance"].amplitude < 0.65
 
 
-def test_is_it_planar(run):
-    found = run("is_it_planar")
+@pytest.fixture(scope="module")
+def planar():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MPLBACKEND", "agg")
+        patch.setattr(plt, "show", lambda: None)
+        found = runpy.run_path(str(MODELS / "is_it_planar.py"))
+    # Map, branches, three codes, the buckled shape; the film is closed.
+    assert len(plt.get_fignums()) == 4
+    plt.close("all")
+    return found
+
+
+def test_the_plane_is_left_above_the_limit(planar):
+    limit = planar["limit"].amplitude
     # 0.0592 without damping.
-    assert found["limit"].amplitude == pytest.approx(0.0594, abs=2e-4)
-    assert found["round_one"].stable.all()
-    rate = found["data"]["growth_rate"]
-    # The tension holds the blade back, so that more stays in the plane as it turns faster.
+    assert limit == pytest.approx(0.0594, abs=2e-4)
+    assert planar["round_one"].stable.all()
+    rate = planar["data"]["growth_rate"]
+    # The tension holds the blade back, so that more stays in the plane as it turns faster; from
+    # one speed to the next a tongue may take some of it.
     highest = [np.flatnonzero(row < 0.02).max(initial=-1) for row in rate.to_numpy()]
-    assert np.all(np.diff(highest) >= 0)
+    assert np.all(np.diff(highest[::4]) > 0)
     k = highest[int(np.flatnonzero(rate["omega"] == 4.0)[0])]
-    assert rate["a"][k] < found["limit"].amplitude < rate["a"][k + 2]
+    assert rate["a"][k] < limit < rate["a"][k + 2]
     assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
-    assert len(found["axes"]) == 4
 
 
-def test_leaving_the_plane(run):
-    strip, thick = run("leaving_the_plane")["branches"]
+def test_branches_that_leave_the_plane(planar):
+    strip, thick = planar["branches"]
     # Born stable; slower as they leave.
     assert strip.stable[:8].all()
     assert thick.stable.all()
     assert np.all(np.diff(strip.frequency) < 0.0)
     assert np.all(np.diff(thick.frequency) < 0.0)
     assert thick.born.amplitude == pytest.approx(0.2479, abs=1e-4)
+
+
+def test_the_strip_buckles_and_turns_behind_its_clamp(planar):
+    # 64 elements: 0.705 s, and 128: 0.710 s.
+    assert planar["left"] == pytest.approx(0.707, abs=0.005)
+    x, y, _ = planar["rectangle"]["axis"].isel(node=-1).to_numpy().T
+    # Both have -0.6955 L, and a turn behind the clamp at 3 s, -1.023.
+    assert x.min() / 8.0 == pytest.approx(-0.6955, abs=0.005)
+    behind = np.interp(3.0, planar["rectangle"]["time"], np.unwrap(np.arctan2(y, x)))
+    assert behind / (2.0 * np.pi) == pytest.approx(-1.02, abs=0.03)
+    assert abs(planar["stays"]["axis"].sel(direction="z")).max() <= 1.001e-3 * 8.0
+    assert "<img" in planar["animation"].to_jshtml()
 
 
 def test_real_blade(run):

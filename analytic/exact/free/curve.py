@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
-from ...input_checks import finite_array, float_array
+from ...input_checks import finite_array
 from ...methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
 from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
@@ -85,10 +85,9 @@ class BackboneCurve:
         return amplitude * self.first(amplitude**2)
 
     def _within(self, a: ArrayLike) -> FloatArray:
-        amplitude = float_array("amplitude", a)
+        amplitude = finite_array("amplitude", a)
         low, high = np.min(amplitude, initial=0.0), np.max(amplitude, initial=0.0)
         if not (low >= 0.0 and high <= self.holds_up_to * (1.0 + 1e-12)):
-            finite_array("amplitude", amplitude)
             raise ValueError(
                 f"the curve at omega = {self.omega:g} rad/s holds for amplitudes from 0 up to "
                 f"{self.holds_up_to:.6g}, got {low if low < 0.0 else high:g}: they are the peak of "

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from ...files.results import whole_folder
 from ..cases import CASES, Asked, Case
 from ..history import FREE_FOR, free_frequency
 from ..submission import Row, Run, Submission
@@ -111,7 +110,7 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
 def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
     """Write the files of a submission, as `read_submission` takes them, and return the folder.
 
-    They read back the same to the last bit. All are written, or none.
+    They read back the same to the last bit.
 
     Parameters
     ----------
@@ -162,12 +161,12 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     for name in (*texts, *(run.case for run in named)):
         if (root / name).exists():
             raise FileExistsError(f"{root} holds {name} already: choose another folder")
-    with whole_folder(root) as made:
-        for file, text in texts.items():
-            (made / file).write_text(text, encoding="utf-8", newline="\n")
-        for run in named:
-            if not run.failure:
-                _write_history(run, made)
+    root.mkdir(parents=True, exist_ok=True)
+    for file, text in texts.items():
+        (root / file).write_text(text, encoding="utf-8", newline="\n")
+    for run in named:
+        if not run.failure:
+            _write_history(run, root)
     return root
 
 
