@@ -125,6 +125,7 @@ class AtConstantRate(Discretized):
 
     rate: float
     driven: ClassVar[bool] = False
+    stiff: ClassVar[bool] = False
 
     @property
     def push(self) -> FloatArray | None:
