@@ -23,7 +23,7 @@ def data_of():
     def data(number):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(runs, "simulate", coarse)
-            return figures.PAPER_FIGURES[number].data()
+            return getattr(comparison, f"figure_{number}")()
 
     return data
 
