@@ -224,7 +224,7 @@ def test_all_that_was_handed_in_is_searched(submitted):
 
 def test_a_ramp_is_looked_for_beside_a_right_case(exact):
     """A history that is right in S1 says nothing of the ramp in S3."""
-    name, time = next(iter(RAMPS)), TIME[TIME <= 2.0]
+    name, time = list(RAMPS)[-1], TIME[TIME <= 2.0]
     wrong = response(ramp(name, 4.0, 2.0), time).q
     runs = tuple(
         Run(case=case, elements=n, step=h, time=t, q=q * (1.0 + 0.1 / n**2 + 100.0 * h**2))
