@@ -45,7 +45,8 @@ def mistakes_in(
             try:
                 one = _in_tags(case, submission, judgement)
                 if one is None and seen is not None:
-                    run, true = seen.finest, seen.reference.history
+                    run = seen.finest
+                    true = seen.reference.history(run.time)
                     one = mistake_in_history(case, run.time, run.q, true, ramps, most)
                 elif one is None and case.asked is not Asked.HISTORY:
                     truth = reference(case, submission.declaration.theory)
