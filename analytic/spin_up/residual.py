@@ -85,21 +85,21 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
     damping = viscosity * of.bending + air * along.T @ (dx[:, None] * along)
 
     def solve(w: float) -> FloatArray:
-        """Return the modes at w̄, (quantities, modes) in the order of `ModesAt`."""
+        """Return the modes at w̄, in the order of `ModesAt`."""
         frequencies, modes = of.modes(w, count)
         decay = 0.5 * np.sum(modes * (damping @ modes), axis=0)
-        return np.stack([frequencies, blade.setting * of.euler @ modes, of.tip @ modes, decay])
+        force, tip = blade.setting * of.euler @ modes, of.tip @ modes
+        return np.concatenate([frequencies, force, tip, decay])
 
     points = _FEWEST
     while True:
-        nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)
-        values = np.array([solve(0.5 * top * (1.0 + x)) for x in nodes])
-        flat = values.reshape(points, -1)
-        coefficients = chebyshev.chebfit(nodes, flat, points - 1)
-        size = np.abs(flat).max(axis=0) + np.finfo(float).tiny
+        coefficients = chebyshev.chebinterpolate(
+            lambda x: np.array([solve(0.5 * top * (1.0 + at)) for at in x]), points - 1
+        )
+        size = np.abs(coefficients).max(axis=0) + np.finfo(float).tiny
         rest = float((np.abs(coefficients[-2:]).max(axis=0) / size).max())
         if rest < _SETTLED:
-            return ModesOverSpeed(top, coefficients.reshape(values.shape))
+            return ModesOverSpeed(top, coefficients.reshape(points, 4, count))
         if points >= _MOST:
             raise ValueError(
                 f"the modes up to w̄ = {top:.4g} do not settle over the speed with {points} "

@@ -120,6 +120,14 @@ def test_an_orbit_keeps_its_integral_and_is_followed_by_its_own_tip():
     assert tip[::-1, 1:] == pytest.approx(-tip[:, 1:], abs=1e-12)
 
 
+def test_twist_without_inertia_makes_no_orbit_unstable():
+    """Its frequency, infinite as the blade gets straight, is beyond the steps of any method."""
+    flat = Theory(extension=False, trapeze=False)
+    found = periodic_orbits(twisted(30.0), 2.0, [0.1], theory=flat)
+    assert found.stable.all()
+    assert np.abs(found.multipliers[0, :6]) == pytest.approx(np.ones(6), abs=1e-6)
+
+
 def test_a_blade_that_is_hardly_twisted_has_the_orbits_of_the_plane():
     flat = Theory(trapeze=False)
     planar = periodic_orbits(BLADE, 2.0, [0.1, 0.2], theory=flat)

@@ -241,22 +241,3 @@ def test_natural_frequencies_and_stretch_are_those_without_damping(beam):
         )
         assert np.array_equal(free.frequencies(3), other.frequencies(3))
         assert free.stretch == other.stretch
-
-
-@pytest.mark.parametrize(
-    ("damping", "element", "sentence"),
-    [
-        (Damping(bending=0.01), "ancf3", "damping: take 'cable' or 'exact', or external damping"),
-        (Damping(axial=0.01), "ancf3", "element 'ancf3' has no viscosity"),
-        (Damping(axial=0.01), "space_cable", "element 'space_cable' has no viscosity"),
-        (Damping(bending=0.01), "space_exact", "take 'cable' or 'exact', or external damping"),
-        (Damping(external=0.01), "linear", "has damping: take 'cable', 'exact' or 'ancf3'"),
-        (Damping(bending=0.01), "substructures", "for the uniform beam .* this blade has damping"),
-    ],
-)
-def test_damping_that_would_be_ignored_is_refused(beam, damping, element, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        blade = beam.with_damping(damping)
-        if element.startswith("space"):
-            blade = blade.with_section_out_of_plane(1.0, 0.8)
-        simulate(blade, SpinUp(omega=1.0, ramp_time=3.0), element=element)

@@ -179,25 +179,3 @@ def test_energy_that_nothing_supplied_or_took_fails(beam):
     # Swung too far by loads: no ramp helps against them.
     far = run.assign(q=run["q"] * 0.9 * beam.length / np.abs(run["q"]).max())
     assert "take smaller loads, more damping, or a duration below 5 s" in remedy(far, 5.0)
-
-
-@pytest.mark.parametrize(
-    ("loads", "error", "sentence"),
-    [
-        ((TipForce(amplitude=1.0),), ValueError, "the frequency of a tip force of 1 N: give"),
-        ((SpeedRipple(amplitude=1.0),), ValueError, "needs the frequency of a ripple"),
-        ((SpeedRipple(amplitude=1.0, frequency=0.0),), ValueError, "add the amplitude to omega"),
-        ((3.0,), TypeError, "must be a SpeedRipple, TipForce, .*Gravity.*, got 3"),
-        (Gravity(), TypeError, r"as in loads=\(Gravity\(\),\), got Gravity"),
-        (None, TypeError, "loads must be several, .* got None"),
-        ((TipForce(amplitude=1.0, frequency=400.0),), ValueError,
-         r"leaves 15\.7 steps in a period of a load, 0\.01571 s: take 0\.000785 s or less"),
-    ],
-)  # fmt: skip
-def test_bad_loads_are_one_sentence(beam, loads, error, sentence):
-    for refused in (
-        lambda: simulate(beam, SpinUp(omega=4.0, ramp_time=3.0), loads=loads),
-        lambda: RunCase(beam=beam, spin_up=SpinUp(omega=4.0, ramp_time=3.0), loads=loads),
-    ):
-        with pytest.raises(error, match=sentence):
-            refused()
