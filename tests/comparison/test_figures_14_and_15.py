@@ -90,22 +90,9 @@ def point_of_the_papers_mesh(beam, ramp_time, **options):
     ).squeeze()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("ramp_time", [3.0, 2.5])
-def test_the_papers_mesh_agrees_with_the_golden_data(beam, ramp_time):
-    kept = golden("figure_14-amplitude").set_index(["mesh", "omega [rad/s]", "ramp_time [s]"])
-    row = kept.loc[("paper", 6.0, ramp_time)]
-    here = point_of_the_papers_mesh(beam, ramp_time)
-    # Deterministic on one machine; another's round-off grows to 1e-9 in 15 000 steps.
-    assert here["ratio"].item() == pytest.approx(row["ratio"], abs=1e-7)
-    assert here["amplitude"].item() == pytest.approx(row["amplitude"], abs=1e-6)
-    # The bars hold what step and mesh do, 1.6e-5 where the two do not cancel.
-    assert here["ratio_error"].item() == pytest.approx(row["ratio_error"], rel=0.05)
-
-
 @pytest.mark.parametrize("step", [4e-3, pytest.param(1e-3, marks=pytest.mark.slow)])
 def test_the_bar_of_a_point_holds_the_exact_backbone(beam, step):
-    here = point_of_the_papers_mesh(beam, 3.0, step=step, duration=12.0)
+    here = point_of_the_papers_mesh(beam, 3.0, step=step, duration=9.0)
     exact = periodic_orbits(beam, 6.0, [here["amplitude"].item()])
     distance = abs(here["ratio"].item() - exact.frequency[0] / exact.omega_n)
     assert here["estimator_error"] < 0.1 * here["ratio_error"]
@@ -216,43 +203,10 @@ def test_model_budget_adds_up_and_blames_the_truncation(beam):
 
 
 @pytest.mark.slow
-def test_every_point_lies_on_the_exact_backbone(beam, grid):
-    for omega, a, ratio in _points(grid, "converged"):
-        if a <= 0.6:
-            exact = periodic_orbits(beam, omega, [a])
-            # 7e-8 with tones fitted to the other modes.
-            assert abs(ratio - exact.frequency[0] / exact.omega_n) < 2e-7
-
-
-def _points(data, mesh):
-    here = data.sel(mesh=mesh)
-    for omega in here["omega"].to_numpy():
-        for ramp_time in here["ramp_time"].to_numpy():
-            one = here.sel(omega=omega, ramp_time=ramp_time)
-            yield float(omega), one["amplitude"].item(), one["ratio"].item()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("omega", "ramp_time", "amplitude", "ratio"),
-    [
-        (2.0, 3.0, 0.16552, 1.000248),
-        (4.0, 2.75, 0.35767, 0.998829),
-        (6.0, 3.375, 0.19558, 0.999236),
-        # 0.59744 by six harmonics; with nine its top is higher, and nearer the exact backbone.
-        (8.0, 2.5, 0.59747, 0.98996),
-    ],
-)
-def test_converged_points_of_the_grid(grid, omega, ramp_time, amplitude, ratio):
-    here = grid.sel(mesh="converged", omega=omega, ramp_time=ramp_time)
-    # The values were read off with another step and peak finder: 2e-5 of the amplitude.
-    assert here["amplitude"].item() == pytest.approx(amplitude, abs=2e-5)
-    assert here["ratio"].item() == pytest.approx(ratio, abs=4e-6)
-
-
-@pytest.mark.slow
 def test_the_grid_agrees_with_the_golden_data(grid):
     kept = golden("figure_14-amplitude")
-    found = grid[["amplitude", "ratio"]].to_dataframe().reset_index()
+    found = grid[["amplitude", "ratio", "ratio_error"]].to_dataframe().reset_index()
+    # Deterministic on one machine; another's round-off grows in 15 000 steps.
     assert np.allclose(kept["ratio"], found["ratio"], atol=1e-6)
     assert np.allclose(kept["amplitude"], found["amplitude"], atol=1e-5)
+    assert np.allclose(kept["ratio_error"], found["ratio_error"], rtol=0.05, atol=1e-8)
