@@ -87,7 +87,7 @@ MADE = {
     ),
 }  # fmt: skip
 # What is computed when it is asked, and inputs.
-NO_RESULTS = {"Backbone", "FourierRamp", "ReducedModel", "FloatArray", "Any"}
+NO_RESULTS = {"Backbone", "FourierRamp", "ReducedModel", "FloatArray", "float | FloatArray", "Any"}
 NO_RESULTS |= {"Path", "Callable[[FloatArray], BeamState]", "xr.Dataset"}
 
 
