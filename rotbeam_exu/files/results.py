@@ -96,10 +96,10 @@ def _table(data: xr.Dataset) -> bytes:
     else:
         rows = data.expand_dims("row").to_dataframe()
     rows = rows.rename(columns={name: _title(data[name]) for name in rows})
-    rows.head(0).to_csv(out, index=False)
-    # Text in quotes, for those who skip whatever follows a "#".
-    quoted = csv.QUOTE_NONNUMERIC
-    rows.to_csv(out, index=False, header=False, quoting=quoted, na_rep="nan")
+    csv.writer(out, lineterminator="\n").writerow(rows.columns)
+    # Text in quotes, for those who skip whatever follows a "#"; pandas would quote NaN as well.
+    quoting = csv.writer(out, lineterminator="\n", quoting=csv.QUOTE_NONNUMERIC)
+    quoting.writerows(rows.itertuples(index=False, name=None))
     return out.getvalue().encode()
 
 

@@ -153,7 +153,9 @@ def test_a_table_has_a_row_for_each_point_of_the_grid(tmp_path):
     )
     for dims in (["y", "x"], ["x", "y"]):
         given = data.transpose(*dims)
-        table = pd.read_csv(save(given, tmp_path / "x.csv"), comment="#", parse_dates=["day"])
+        path = save(given, tmp_path / "x.csv")
+        assert ",nan," in path.read_text(encoding="utf-8"), "no text in quotes"
+        table = pd.read_csv(path, comment="#", parse_dates=["day"])
         # By the other library's own way.
         wanted = given.to_dataframe(dim_order=list(given.sizes)).reset_index()
         pd.testing.assert_frame_equal(
