@@ -14,6 +14,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 
 import cyclopts
@@ -73,8 +74,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     arguments = sys.argv[1:] if arguments is None else list(map(str, arguments))
     write_utf8()
     with warnings.catch_warnings(), _ctrl_c_noted() as met:
-        warnings.simplefilter("default", RotbeamWarning)  # the same sentence once
-        warnings.showwarning = lambda message, *_: print_message("warning:", "yellow", str(message))
+        warnings.simplefilter("always", RotbeamWarning)
+        # Each sentence once; Python's own memory of them ends with every `catch_warnings` within.
+        say = cache(lambda text: print_message("warning:", "yellow", text))
+        warnings.showwarning = lambda message, *_: say(str(message))
         try:
             app(arguments, exit_on_error=False, print_error=False)
             sys.stdout.flush()

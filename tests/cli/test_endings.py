@@ -78,7 +78,8 @@ def test_a_full_disk_names_the_file(tmp_path):
 def test_warnings_and_the_reason_of_a_failure_are_a_line_each(call, monkeypatch, failure, code):
     def failing(*_, **__):
         for text in ("1 is\nsmall", "1 is\nsmall", "2 is small"):
-            warnings.warn(text, RotbeamWarning, stacklevel=2)
+            with warnings.catch_warnings():
+                warnings.warn(text, RotbeamWarning, stacklevel=2)
         raise failure("no")
 
     monkeypatch.setattr(job, "_print_coefficients", failing)
