@@ -29,33 +29,10 @@ class FirstMode(NamedTuple):
 
 
 class BladeFunctions:
-    """Functions φ_k of a blade's deflection, and what its integrals take; no dimensions.
+    """Functions φ_k (n) of a blade's deflection, and what its integrals take; no dimensions.
 
-    Attributes
-    ----------
-    blade : UnitBlade
-    across : ShapeFunctions
-        The functions themselves.
-    at, dm : ndarray (masses,)
-        The measure of the mass, and where it is.
-    dj : ndarray (turning,)
-        The measure of the rotary inertia.
-    bent : ndarray (points,)
-        The measure EI dx.
-    weights : ndarray (inner,)
-        Of the Gauss points from which slopes are integrated.
-    to_masses : ndarray (masses, inner)
-        From values at these points to their integrals from the clamp.
-    tension : ndarray (inner,)
-        ∫N f dx = w̄² tension @ f.
-    deflection : ndarray (masses, n)
-    slope, slope_turning, slope_bent : ndarray (inner, n), (turning, n), (points, n)
-    curvature : ndarray (points, n)
-    tip : ndarray (n,)
-    mass, bending, centrifugal, turning : ndarray (n, n)
-        M; the parts of K = bending + w̄² centrifugal; and the rotary inertia's part of M.
-    euler : ndarray (n,)
-        ∫(δ + x) φ dm + ∫φ' dj: over c; the Euler force -θ̈ does work on it.
+    Measures are dm at the masses, dj at what turns, and EI dx at the points. Slopes are integrated
+    from Gauss points inside.
     """
 
     def __init__(self, blade: UnitBlade, count: int) -> None:
@@ -63,12 +40,12 @@ class BladeFunctions:
         self.across = across = shape_functions(blade, count)
         points = 2 * (across.a_panel + 4)
         x, dx = blade.quadrature(points)
-        self.bent = dx * evaluated(blade.bending, x)
-        self.at, self.dm = blade.inertia(points)
+        self.bent = dx * evaluated(blade.bending, x)  # EI dx, (points,)
+        self.at, self.dm = blade.inertia(points)  # (masses,)
         turning_at, dj = blade.turning(points)
-        self.dj, inner = dj, blade.grid(points, 4)
-        self.weights = inner.weights
-        # Values at these points to integrals from the clamp to the masses: products of two slopes.
+        self.dj, inner = dj, blade.grid(points, 4)  # (turning,)
+        self.weights = inner.weights  # (inner,)
+        # Values inside to integrals from the clamp to the masses: products of two slopes.
         self.to_masses = inner.integral(self.at)
 
         self.deflection = across.twice(self.at)
@@ -78,13 +55,14 @@ class BladeFunctions:
         self.curvature = across.strain(x)
         self.tip = across.twice(np.ones(1))[0]
         lever = (blade.hub + self.at) * self.dm
-        self.tension = lever @ self.to_masses
+        self.tension = lever @ self.to_masses  # ∫N f dx = w̄² tension @ f
         moved = self.deflection.T @ (self.dm[:, None] * self.deflection)
         self.turning = self.slope_turning.T @ (dj[:, None] * self.slope_turning)
         self.mass = moved + self.turning
         self.bending = self.curvature.T @ (self.bent[:, None] * self.curvature)
         stiffening = self.slope.T @ (self.tension[:, None] * self.slope)
-        self.centrifugal = stiffening - blade.setting**2 * moved
+        self.centrifugal = stiffening - blade.setting**2 * moved  # K = bending + w̄² centrifugal
+        # ∫(δ + x) φ dm + ∫φ' dj: over c; the Euler force -θ̈ does work on it.
         self.euler = lever @ self.deflection + dj @ self.slope_turning
 
     def stiffness(self, w_bar: float) -> FloatArray:

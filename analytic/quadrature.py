@@ -80,18 +80,10 @@ def _onto_slopes(count: int) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Gauss points on the cells of a cut interval.
+    """Gauss points on the cells of a cut interval."""
 
-    Attributes
-    ----------
-    ends : ndarray (cells + 1,)
-        Ascending from 0 to 1.
-    counts : ndarray (cells,)
-        Number of Gauss points on each.
-    """
-
-    ends: FloatArray
-    counts: NDArray[np.intp]
+    ends: FloatArray  # (cells + 1,), ascending from 0 to 1
+    counts: NDArray[np.intp]  # (cells,), of the Gauss points on each
 
     @cached_property
     def points(self) -> FloatArray:

@@ -32,19 +32,11 @@ class ShapeFunctions:
     """Strains M/EI or N/EA, orthonormal in that stiffness, and their integrals.
 
     Made by `shape_functions`. A larger set begins with a smaller one.
-
-    Attributes
-    ----------
-    blade : UnitBlade
-    a_panel : int
-        Functions on each panel between point masses.
-    stiffness : str
-        "bending" for M/EI, "axial" for N/EA.
     """
 
     blade: UnitBlade
-    a_panel: int
-    stiffness: Stiffness
+    a_panel: int  # functions on each panel between point masses
+    stiffness: Stiffness  # "bending" for M/EI, "axial" for N/EA
 
     @property
     def count(self) -> int:

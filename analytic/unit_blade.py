@@ -22,35 +22,17 @@ _STEEPEST = 2.0  # ratio of a stiffness within a cell: by 14 points more its inv
 
 @dataclass(frozen=True, kw_only=True)
 class UnitBlade:
-    """Data of a blade in units of L and the root's m, EI and EA; the default is the uniform beam.
+    """Data of a blade in units of L and the root's m, EI and EA; by default the uniform beam."""
 
-    Attributes
-    ----------
-    hub : float
-        δ = R/L.
-    setting : float
-        c = cos ψ.
-    masses : tuple
-        Position, mass and inertia of each point mass, over L, m0 L and m0 L³.
-    mass : Profile
-        Over the root's m; stations over L here and below.
-    bending : Profile
-        Over the root's EI.
-    axial : Profile
-        Over the root's EA.
-    rotary : Profile
-        Inertia against rotation over m0 L².
-    damping : tuple
-        η_b and η_a times f and d/(m0 f), with f = √(EI/(m0 L⁴)).
-    """
-
-    hub: float = 0.0
-    setting: float = 1.0
+    hub: float = 0.0  # δ = R/L
+    setting: float = 1.0  # c = cos ψ
+    # Position, mass and inertia of each point mass, over L, m0 L and m0 L³.
     masses: tuple[tuple[float, float, float], ...] = ()
-    mass: Profile = 1.0
-    bending: Profile = 1.0
-    axial: Profile = 1.0
-    rotary: Profile = 0.0
+    mass: Profile = 1.0  # over the root's m; stations over L here and below
+    bending: Profile = 1.0  # over the root's EI
+    axial: Profile = 1.0  # over the root's EA
+    rotary: Profile = 0.0  # inertia against rotation over m0 L²
+    # η_b and η_a times f and d/(m0 f), with f = √(EI/(m0 L⁴)).
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @cached_property

@@ -14,12 +14,23 @@ import matplotlib.pyplot as plt
 from analytic import Beam
 from rotbeam_exu import figures
 from rotbeam_exu.fem.elements import Substructures
-from rotbeam_exu.fem.elements.linear_frames import divergence_speeds
 
-beam = Beam.reference()
-two = {
-    frame: Substructures(frame=frame).divergence_speed(beam, 2) for frame in ("tangent", "pinned")
+plt.style.use(figures.STYLE)
+beam, counts = Beam.reference(), [1, 2, 3, 4, 6, 8, 12, 16]
+speeds = {
+    frame: [Substructures(frame=frame).divergence_speed(beam, n) for n in counts]
+    for frame in ("tangent", "pinned")
 }
+two = {frame: found[1] for frame, found in speeds.items()}
 print(", ".join(f"two {frame} frames: {speed:.4f} rad/s" for frame, speed in two.items()))
-figures.divergence_speed(divergence_speeds(beam, [1, 2, 3, 4, 6, 8, 12, 16]))
+
+_, ax = plt.subplots()
+ax.axhline(beam.omega_0, color="0.6", lw=0.5)
+ax.annotate("$ω_0$", (16, beam.omega_0), xytext=(0, 3), textcoords="offset points", ha="right")
+for (frame, found), look in zip(speeds.items(), ("C0o-", "C4s-"), strict=True):
+    ax.loglog(counts, found, look, ms=3.0, label=f"{frame} frames")
+ax.set(xlabel="number of substructures", ylabel="divergence speed [rad/s]")
+ax.set_xticks(counts, counts)
+ax.set_xticks([], minor=True)
+ax.legend()
 plt.show()

@@ -33,21 +33,14 @@ def waves(phase: FloatArray, harmonics: int, order: int = 2) -> FloatArray:
 class Period:
     """Midpoints of a period or of half of it, and the projection onto the waves there.
 
-    Attributes
-    ----------
-    phase : ndarray (count,)
-    spacing : float
-        Between the phases.
-    waves : ndarray (3, count, 2H + 1)
-    onto : ndarray (2H + 1, count)
-        From samples to coefficients; exact for products of two waves. In half a period sines belong
-        to coordinates that reversal turns around, cosines to the others.
+    In half a period sines belong to coordinates that reversal turns around, cosines to the others.
     """
 
     def __init__(self, harmonics: int, half: bool, count: int) -> None:
         self.spacing = (1.0 if half else 2.0) * np.pi / count
         self.phase = np.asarray(self.spacing * (np.arange(count) + 0.5), dtype=np.float64)
-        self.waves = waves(self.phase, harmonics)
+        self.waves = waves(self.phase, harmonics)  # (3, count, 2H + 1)
+        # From samples to coefficients, (2H + 1, count); exact for products of two waves.
         self.onto = 2.0 / count * self.waves[0].T
         self.onto[0] *= 0.5
 

@@ -25,31 +25,16 @@ class Orbit(Generic[S]):
 
     A driven orbit has the phase of its drive. Where time reversal leaves half a series, odd
     coordinates are zero at φ = 0.
-
-    Attributes
-    ----------
-    system : System
-    frequency : float
-        Ω.
-    coefficients : ndarray (2H + 1, n)
-        The mean, H cosines and H sines.
-    amplitude : float
-        Peak of the gauge.
-    peak_phase : float
-        Phase of the peak.
-    frequency_error : float
-        Relative change of Ω under one more refinement; NaN where it was not asked for.
-    low_phase : float
-        Phase of the lowest point of a free orbit without symmetry, whose amplitude is half the
-        distance between both; NaN of others.
     """
 
     system: S
-    frequency: float
-    coefficients: FloatArray = field(repr=False)
-    amplitude: float = math.nan
+    frequency: float  # Ω
+    coefficients: FloatArray = field(repr=False)  # (2H + 1, n): the mean, H cosines and H sines
+    amplitude: float = math.nan  # peak of the gauge
     peak_phase: float = 0.5 * np.pi
-    frequency_error: float = math.nan
+    frequency_error: float = math.nan  # relative change of Ω under one more refinement, if asked
+    # Of the lowest point of a free orbit without symmetry, whose amplitude is half the distance
+    # between both; NaN of others.
     low_phase: float = math.nan
 
     @property

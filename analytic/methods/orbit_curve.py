@@ -36,22 +36,13 @@ _STILL = 1e-12  # amplitude that is round-off, and has no peaks
 
 @dataclass(frozen=True, eq=False)
 class OrbitCurve(Generic[S]):
-    """The projected equations of orbits, as a curve in their coefficients and frequency.
+    """The projected equations of orbits, as a curve in their coefficients and frequency."""
 
-    Attributes
-    ----------
-    like : Orbit
-        An orbit on the same system and harmonics.
-    origin, scale : float
-        The frequency is the origin plus the scale times the last unknown.
-    larger : callable
-        Returns an orbit on as many more harmonics or functions as one lacks, None if it lacks none;
-        raises NoOrbitError if that is more than are taken.
-    """
-
-    like: Orbit[S]
-    origin: float
+    like: Orbit[S]  # on the same system and harmonics
+    origin: float  # the frequency is this plus the scale times the last unknown
     scale: float
+    # The orbit on as many more harmonics or functions as one lacks, None if it lacks none; raises
+    # NoOrbitError if that is more than are taken.
     larger: Callable[[Orbit[S]], Orbit[S] | None]
 
     def unknowns(self, orbit: Orbit[Any]) -> FloatArray:

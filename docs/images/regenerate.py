@@ -6,13 +6,16 @@ Figure 14 is drawn from the golden data, which tests/comparison/golden/regenerat
 from pathlib import Path
 
 import matplotlib as mpl
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from PIL import Image
+from scipy.interpolate import CubicSpline
 
 from analytic import Beam, SpinUp, spin_up_response
+from analytic.reduced.any_blade import blade_oscillator
 from rotbeam_exu import comparison, dataset_of, figures, simulate
 
 HERE = Path(__file__).parent
@@ -37,6 +40,33 @@ def golden() -> xr.Dataset:
     for name, like in {"ratio": "backbone", "amplitude": "a", "a": "a"}.items():
         data[name].attrs = named[like].attrs
     return data
+
+
+def softening_by_plane() -> Axes:
+    """Return λ_ω of FrM of lag alone and of flap alone, the blade set at a right angle."""
+    w_bar = np.linspace(0.0, 10.0, 101)
+    with mpl.rc_context(figures.STYLE):
+        _, ax = plt.subplots(figsize=(3.5, 2.4))
+        ax.axhline(0.0, color="0.6", lw=0.5)
+        # Where each name of a zero is clear of both curves.
+        for plane, angle, look, at, side in (
+            ("lag", 0.0, "C0-", (4, -9), "left"), ("flap", 0.5 * np.pi, "C1--", (-4, 3), "right"),
+        ):  # fmt: skip
+            unit = Beam.reference().with_setting_angle(angle).unit
+            found = [blade_oscillator(unit, w, coriolis=True) for w in w_bar.tolist()]
+            curve = CubicSpline(w_bar, [one.oscillator.lambda_omega for one in found])
+            (line,) = ax.plot(w_bar, curve(w_bar), look, label=plane)
+            for zero in curve.roots(extrapolate=False):
+                ax.plot(zero, 0.0, "o", color=line.get_color(), ms=3)
+                ax.annotate(
+                    f"{zero:.2f}", (zero, 0.0), xytext=at, textcoords="offset points",
+                    fontsize=6.5, color=line.get_color(), ha=side,
+                )  # fmt: skip
+        ax.set(xlabel="speed ω̄ = ω/√(EI/ρAL⁴)", ylabel="$λ_ω$", xlim=(0.0, 10.0))
+        ax.text(0.02, 0.93, "softening", transform=ax.transAxes, color="0.35")
+        ax.text(0.98, 0.03, "hardening", transform=ax.transAxes, color="0.35", ha="right")
+        ax.legend()
+    return ax
 
 
 def twisted() -> Axes:
@@ -66,9 +96,12 @@ if __name__ == "__main__":
     write(figures.figure_14(golden())[0], "figure_14")
     run = simulate(Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), elements=16)
     write(figures.spin_up(run)[0], "spin_up")
-    peaks = golden()["amplitude"].sel(mesh="paper").to_series().dropna().groupby("omega")
-    ends = peaks.apply(list).to_dict()
+    peaks = golden()["amplitude"].sel(mesh="paper").to_series().dropna()
     growth = comparison.growth_out_of_plane()
-    write(figures.growth_out_of_plane(growth, spin_ups=ends), "planar_map")
-    write(figures.softening_by_plane(comparison.softening_by_plane()), "softening_by_plane")
+    ax = figures.growth_out_of_plane(growth)
+    peaks = peaks[peaks <= growth["a"].max().item()]
+    speeds = peaks.index.get_level_values("omega")
+    ax.plot(speeds, peaks, "wo", ms=3.2, mec="black", mew=0.7, clip_on=False)
+    write(ax, "planar_map")
+    write(softening_by_plane(), "softening_by_plane")
     write(twisted(), "shape")

@@ -35,7 +35,6 @@ def animate(
     ramp_time: RampTime = None,
     duration: float | None = None,
     rate: Whole = 20,
-    slow_motion: float | None = None,
     beside: Literal["linear"] | None = None,
     run: Path | None = None,
     height: float | None = None,
@@ -56,8 +55,6 @@ def animate(
         End of the motion [s].
     rate
         Pictures a second of the film.
-    slow_motion
-        Seconds of the film per second of the motion.
     beside
         Show the linear model in a floating frame beside the exact beam: it diverges above the first
         natural frequency at rest.
@@ -99,12 +96,11 @@ def animate(
         beam, speed, ramp = beam_of(kept.attrs), kept.attrs["omega"], kept.attrs["ramp_time"]
         duration = float(kept["time"][-1])
     slower = max(1.0, float(f"{1.0 / slower_than_paper(beam):.1e}"))
-    slower = slower if slow_motion is None else positive("slow_motion", slow_motion)
     pictures = duration * slower * rate
     if pictures < 1.0:
         raise ValueError(
             f"{duration:g} s at {rate:g} pictures a second, {slower:g} times slower, are one "
-            f"picture: take a rate or a slow motion {math.ceil(2.0 / pictures)} times as large"
+            f"picture: take a rate {math.ceil(2.0 / pictures)} times as large"
         )
     name = f"spin-up-omega-{speed:g}-ramp-{ramp:g}"
     target = out or Path(name + ("-beside-linear.gif" if beside else ".gif"))

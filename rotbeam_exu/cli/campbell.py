@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,7 +18,7 @@ from analytic.input_checks import positive, rotation_speed, whole_number
 from .job import Job
 from .motion import chosen_speeds, configured
 from .options import SECTION, Flag, SectionOptions, Whole
-from .output import Format, bar, formatted, print_columns
+from .output import bar, formatted, print_columns
 
 if TYPE_CHECKING:
     from analytic.exact.linear.campbell import Campbell
@@ -33,7 +33,6 @@ def campbell(
     orders: Whole = 6,
     shape: SectionOptions = SECTION,
     config: Path | None = None,
-    format: Format = "table",  # noqa: A002  the name of the option
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: float | None = None,
     force: Flag = False,
@@ -58,8 +57,6 @@ def campbell(
         Lines k ω up to this k.
     config
         TOML file with the beam; without it, the paper's beam.
-    format
-        A table to read, or CSV of the frequencies; the crossings are then in the folder only.
     out
         Folder for netCDF, CSV and the figure; without it none is written.
     frequency_max
@@ -71,7 +68,7 @@ def campbell(
     --------
     $ rotbeam campbell
     $ rotbeam campbell --section rectangle --frequency-max 80 -o results
-    $ rotbeam campbell --omega-max 8 --points 5 --count 2 --format csv
+    $ rotbeam campbell --omega-max 8 --points 5 --count 2 -o results
     """
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
@@ -84,14 +81,14 @@ def campbell(
     with bar("modes"):
         diagram = analytic.campbell(beam, speeds, count, orders, planes=_families(beam))
     if out is None:
-        _print(diagram, format)
+        _print(diagram)
         return
     from ..datasets import dataset_of
 
     data = dataset_of(diagram)
     Job(
         path=out / f"campbell-{shape.name}", inputs=data, force=force, compute=lambda: data,
-        show=lambda *_: _print(diagram, format), aside=format == "csv",
+        show=lambda *_: _print(diagram),
         draw=lambda figures, _: figures.campbell(diagram, highest=frequency_max),
     ).run()  # fmt: skip
 
@@ -106,29 +103,22 @@ def _families(beam: AnyBlade) -> list[Plane]:
     return ["lag", "flap", "torsion"] if twists and inert else ["lag", "flap"]
 
 
-def _print(diagram: Campbell, form: Format) -> None:
-    """Print frequencies over speed, and the crossings.
+def _print(diagram: Campbell) -> None:
+    """Print frequencies over speed, and the crossings, with as many digits as are known."""
 
-    A table has as many digits as are known: of torsion four, for the section may be kept from
-    warping. CSV has all, and no crossings: one table a stream.
-    """
-    csv = form == "csv"
+    def column(values: Iterable[float], plane: Plane) -> list[str]:
+        # Of torsion four, for the section may be kept from warping.
+        return formatted(values, "#.4g" if plane == "torsion" else ".6f")
 
-    def column(values: Iterable[float], plane: Plane) -> Sequence[str | float]:
-        return list(values) if csv else formatted(values, "#.4g" if plane == "torsion" else ".6f")
-
-    unit, omega = (" [rad/s]", "omega [rad/s]") if csv else ("", "ω [rad/s]")
+    omega = "ω [rad/s]"
     in_plane = set(diagram.planes) == {"lag"} and diagram.names[0] == "lag 1"
     names = [f"mode {k}" for k, _ in enumerate(diagram.planes, 1)] if in_plane else diagram.names
     columns = zip(names, diagram.planes, diagram.frequencies.T.tolist(), strict=True)
     print_columns(
-        {omega: diagram.omegas.tolist() if csv else formatted(diagram.omegas, ".4g")}
-        | {f"{name}{unit}": column(found, plane) for name, plane, found in columns},
-        form,
+        {omega: formatted(diagram.omegas, ".4g")}
+        | {name: column(found, plane) for name, plane, found in columns},
         title=f"{'In-plane frequencies' if in_plane else 'Frequencies'} [rad/s]",
     )
-    if csv:
-        return
     met = diagram.crossings
     named = [names[diagram.planes.index(one.plane) + one.mode - 1] for one in met]
     print_columns(

@@ -6,6 +6,8 @@ from ..files.results import writable_folder
 from .job import Job
 from .options import RESULTS, WORKERS, Results, Workers, numbered
 
+_SWEPT = (5, 14)  # whose data come from sweeps
+
 
 def figure(
     number: str,
@@ -40,17 +42,17 @@ def figure(
 
 def _made(n: int, workers: Workers, results: Results) -> None:
     """Make one figure."""
-    from .. import figures
+    from .. import comparison, figures
 
-    made = figures.PAPER_FIGURES[n]
+    name = f"figure_{n}"
     writable_folder(results.out)
     with workers.counted(f"figure {n}") as progress:
         options = {"jobs": workers.jobs, "cache": workers.cache, "progress": progress}
-        data = made.data(**options if made.sweeps else {})
+        data = getattr(comparison, name)(**options if n in _SWEPT else {})
 
     # Data has its inputs, so files are compared with it after it is computed.
     Job(
-        path=results.out / f"figure_{n}", inputs=data, force=results.force, compute=lambda: data,
-        show=lambda *_: None, draw=lambda _, data: made.draw(data),
-        caption=f"Figure {n}. {made.caption(data)}",
+        path=results.out / name, inputs=data, force=results.force, compute=lambda: data,
+        show=lambda *_: None, draw=lambda figures, data: getattr(figures, name)(data),
+        caption=f"Figure {n}. {figures.caption(n, data)}",
     ).run()  # fmt: skip

@@ -72,8 +72,6 @@ class Job(Generic[R, T]):
         Drawing of the Dataset by `figures`, which is handed over; none, unless given.
     caption
         Words about the figure, for a file of text beside it.
-    aside
-        Whether the list of files goes to standard error, as beside a CSV.
     """
 
     path: Path
@@ -85,7 +83,6 @@ class Job(Generic[R, T]):
     show: Callable[[R, xr.Dataset], T]
     draw: Callable[[Any, xr.Dataset], Any] | None = None
     caption: str = ""
-    aside: bool = False
 
     def run(self) -> T:
         """Check, compute, save, show, draw and list the files; return what `show` does."""
@@ -107,7 +104,7 @@ class Job(Generic[R, T]):
                 written.append(Path(f"{self.path}.txt"))
                 with whole_file(written[-1]) as partial:
                     partial.write_text(f"{self.caption}\n", encoding="utf-8")
-        print_written(written, stderr=self.aside)
+        print_written(written)
         return shown
 
     def _kept(self, end: UnfinishedError) -> str:

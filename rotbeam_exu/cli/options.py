@@ -39,8 +39,6 @@ def whole(_: Any, tokens: Sequence[Token]) -> int:
 Whole = Annotated[int, Parameter(converter=whole)]
 """A whole number."""
 
-_OF_FILE = "given"
-
 Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
 
@@ -67,16 +65,16 @@ def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
     raise ValueError(f"there is no {what} {text!r}: it must be {', '.join(by_name)} or all")
 
 
-def element_of(name: str, options: Mapping[str, object] | None = None) -> Formulation:
+def element_of(name: str) -> Formulation:
     """Return the formulation of a name, or of one's own class as module:Class."""
     from ..fem.elements import formulation
 
     module, colon, kind = name.partition(":")
     if not colon:
-        return formulation(name, options)
+        return formulation(name)
     sys.path.insert(0, str(Path.cwd()))  # as of `python -m`; a sweep's workers need it too
     try:
-        return formulation(getattr(import_module(module), kind)(**(options or {})))
+        return formulation(getattr(import_module(module), kind)())
     except (AttributeError, ImportError, TypeError) as error:
         raise ValueError(
             f"no element can be made of {name}: {error}; give module:Class, the module in this "
@@ -94,8 +92,6 @@ class Discretization:
     element
         Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in
         space space_cable, space_exact; or one's own, as module:Class.
-    option
-        Option of the formulation as name=value; repeat it for several.
     elements
         Number of elements, 16 unless given.
     step
@@ -107,7 +103,6 @@ class Discretization:
     """
 
     element: str | None = None
-    option: list[str] | None = None
     elements: Whole | None = None
     step: float | None = None
     duration: float | None = None
@@ -123,20 +118,9 @@ class Discretization:
         return replace(self, **{**usual, **numerics, **mine})
 
     @property
-    def options(self) -> dict[str, object]:
-        """Options of the formulation by name."""
-        return dict(map(_name_and_value, self.option or []))
-
-    @property
     def name(self) -> str:
-        """Formulation, options and mesh as part of a file's name."""
-        options = [f"{name}-{value}" for name, value in self.options.items()]
-        return "-".join([f"{self.element}".rpartition(":")[2], *options, f"{self.elements}"])
-
-    @property
-    def title(self) -> str:
-        """Formulation and options for a reader."""
-        return ", ".join([f"{self.element}", *(f"{k}={v}" for k, v in self.options.items())])
+        """Formulation and mesh as part of a file's name."""
+        return f"{self.element}".rpartition(":")[2] + f"-{self.elements}"
 
     def case(self, beam: AnyBlade, motion: ChosenMotion, loads: Sequence[Load] = ()) -> RunCase:
         """Return the case of a motion, whose step and duration are chosen."""
@@ -145,7 +129,7 @@ class Discretization:
         mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
         return RunCase(
             beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
-            element=element_of(f"{self.element}", self.options), loads=loads, **mesh,
+            element=element_of(f"{self.element}"), loads=loads, **mesh,
         )  # fmt: skip
 
 
@@ -195,10 +179,7 @@ def _shapes() -> dict[str, Any]:
     return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
 
 
-_Section: Any = Annotated[
-    Literal[(*_shapes(), _OF_FILE)],
-    Parameter(help=f"The section out of the plane; {_OF_FILE} is that of the file."),
-]
+_Section: Any = Literal[tuple(_shapes())] | None
 
 
 @Parameter(name="*")
@@ -208,37 +189,31 @@ class SectionOptions:
 
     Parameters
     ----------
+    section
+        The section out of the plane; by default that of the file.
     ratio
         Height in the plane over width, of a rectangle or an ellipse whose material and size follow
         the beam's EA, EI and mass; by default from the beam's A and I.
-    poisson_ratio
-        Poisson's ratio, for the torsional stiffness.
     """
 
-    section: _Section = _OF_FILE
+    section: _Section = None
     ratio: float | None = None
-    poisson_ratio: float = 0.3
 
     @property
     def name(self) -> str:
         """The shape as part of a file's name."""
-        return self.section if self.ratio is None else f"{self.section}-{self.ratio:g}"
+        shape = self.section or "given"
+        return shape if self.ratio is None else f"{shape}-{self.ratio:g}"
 
     def of(self, beam: AnyBlade) -> AnyBlade:
         """Return the beam with the section asked for, by default its own."""
         kind = _shapes().get(self.section)
-        sides = kind is not None and "ratio" in (field.name for field in fields(kind))
-        if self.ratio is not None and not sides:
-            raise ValueError(
-                f"--ratio is height over width, and --section {self.section} has none: leave it out"
-            )
-        if kind is None:
-            return beam
         if self.ratio is None:
-            return beam.with_shape(kind(poisson_ratio=self.poisson_ratio))
+            return beam if kind is None else beam.with_shape(kind())
+        if kind is None or "ratio" not in (field.name for field in fields(kind)):
+            raise ValueError("--ratio is height over width: give it with a --section that has both")
         # With another material than the beam's, of which the blade knows none.
-        shape = kind(ratio=self.ratio, poisson_ratio=self.poisson_ratio)
-        return beam.blade.with_shape(shape)
+        return beam.blade.with_shape(kind(ratio=self.ratio))
 
     def required_of(self, beam: AnyBlade) -> AnyBlade:
         """Return the same; refuse a beam whose section out of the plane is unknown."""
@@ -254,16 +229,3 @@ class SectionOptions:
 DISCRETIZATION, RESULTS = Discretization(), Results()
 SECTION, WORKERS = SectionOptions(), Workers()
 """Nothing given."""
-
-
-def _name_and_value(text: str) -> tuple[str, object]:
-    """Split name=value; what reads as a number is one."""
-    name, equals, value = text.partition("=")
-    if not (name and equals and value):
-        raise ValueError(f"an option is given as name=value, got {text!r}")
-    for number in (int, float):
-        try:
-            return name, number(value)
-        except ValueError:
-            continue
-    return name, value

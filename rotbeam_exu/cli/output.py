@@ -64,16 +64,11 @@ def print_columns(
     form: Format = "table",
     *,
     title: str = "",
-    header: bool = True,
 ) -> None:
-    """Print named columns of equal length; floats in full in CSV, to 7 digits in a table.
-
-    A CSV may go on without its `header`.
-    """
+    """Print named columns of equal length; floats in full in CSV, to 7 digits in a table."""
     if form == "csv":
         writer = csv.writer(sys.stdout, lineterminator="\n")
-        if header:
-            writer.writerow(columns)
+        writer.writerow(columns)
         writer.writerows(zip(*columns.values(), strict=True))
         return
     table, texts = Table(), list(map(_cells, columns.values()))
@@ -128,10 +123,10 @@ def print_line(title: str, text: str) -> None:
     print_text(f"{title:<22}{text}")
 
 
-def print_written(paths: Iterable[Path], *, stderr: bool = False) -> None:
+def print_written(paths: Iterable[Path]) -> None:
     """Print the files written, one path a line."""
     for path in paths:
-        new_console(stderr=stderr).print(f"written {path}")
+        new_console().print(f"written {path}")
 
 
 def _cells(column: Sequence[str | float]) -> list[str]:

@@ -55,7 +55,7 @@ def run(
     --------
     $ rotbeam run
     $ rotbeam run --omega 4 --ramp-time 2.5 --frame rotating --elements 32 -o fine
-    $ rotbeam run --config beam.toml --element exact --option nodes=3 --no-figure
+    $ rotbeam run --config beam.toml --element exact --no-figure
     $ rotbeam run --gravity --damping-ratio 0.01 --no-exact
     """
     from ..verification.assessment import assess
@@ -73,7 +73,10 @@ def run(
         steady = _measured(data, path)
         with bar("exact frequencies"):
             found = assess(case, steady, exact=not no_exact)
-        for title, text in (*_inputs(case, numerics.title, chosen), *_results(data, steady, found)):
+        for title, text in (
+            *_inputs(case, f"{numerics.element}", chosen),
+            *_results(data, steady, found),
+        ):
             print_line(title, text)
         return found
 

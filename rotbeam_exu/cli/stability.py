@@ -9,7 +9,7 @@ import numpy as np
 
 import analytic
 from analytic.exact.plane.growth import least_growth
-from analytic.input_checks import not_negative, positive, whole_number
+from analytic.input_checks import not_negative, whole_number
 
 from ..files.results import parts
 from ..runs.attributes import beam_attributes
@@ -32,13 +32,13 @@ def stability(
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
     damping_ratio: float = 0.0,
-    growth: float | None = None,
     config: Config = None,
     results: Results = RESULTS,
 ) -> None:
     """Find whether motion in the plane of rotation stays in it.
 
-    Prints the limit of the amplitude, a table over the amplitude, and one of the narrow tongues
+    Prints the limit of the amplitude, above which all orbits grow by more than 0.01 per radian, or
+    with damping at all, a table over the amplitude, and one of the narrow tongues
     below the limit; writes netCDF, CSV and a figure.
 
     Parameters
@@ -50,9 +50,6 @@ def stability(
         In-plane mode from which the orbits grow.
     damping_ratio
         Damping ratio of all modes of flap and torsion, beside the damping of the file's blade.
-    growth
-        Growth out of the plane per radian of the orbit above which all orbits are beyond the limit;
-        0.01, or any with damping.
 
     Examples
     --------
@@ -64,15 +61,13 @@ def stability(
 
     whole_number("mode", mode)
     not_negative("damping-ratio", damping_ratio)
-    if growth is not None:
-        positive("growth", growth)
     file = configured(config)
     omega = omega_of(file, omega)
     blade = shape.required_of(file.beam)
     amplitudes = sorted(set(amplitude))
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
-    growth = least_growth(blade, damping_ratio) if growth is None else growth
+    growth = least_growth(blade, damping_ratio)
     inputs |= {"damping_ratio": damping_ratio, "growth": growth}
 
     def computed() -> tuple[PlanarStability, StabilityLimit]:

@@ -109,19 +109,43 @@ def _numerics(mesh: Mesh) -> str:
     return f"{elements} cable elements, {frame} frame, {steps}"
 
 
-def fitted_softening(points: xr.Dataset, *, below: float = 0.4) -> xr.Dataset:
-    """λ_ω of each speed by least squares: ratio = 1 - λ_ω a² (- κ a⁴) for a < `below`.
+def figure_5(**options: Any) -> xr.Dataset:
+    """Finite element points and the least-squares curves 1 - λ_ω a² - κ a⁴ (Fig. 5).
+
+    The paper draws parabolas; over its amplitudes, up to 0.84, none fits: least squares then give
+    a λ_ω a third or more too large at 6 and 8 rad/s. The curves are fitted for a < 0.6.
 
     Returns
     -------
     Dataset
-        `lambda_omega` and `quartic` κ [-] over omega.
-        `lambda_omega_error`: the points' own errors, plus the standard error by their scatter.
+        The points of the paper's mesh over (omega, ramp_time). `lambda_omega` and `quartic` κ over
+        omega, with `lambda_omega_error`: the points' own errors, plus the standard error by their
+        scatter. The curves `fit` over (omega, a), up to a = 0.6. The exact backbone is `exact`
+        over `exact_amplitude`, (omega, node), up to the largest point of each speed. Options are
+        those of `finite_element_points`.
     """
+    beam = Beam.reference()
+    points = finite_element_points(beam, mesh="paper", **options)
+    fit = _fitted(points)
+    a = xr.DataArray(np.linspace(0.0, _FITTED, 61), dims="a", attrs=labeled(AMPLITUDE))
+    curve = 1.0 - fit["lambda_omega"] * a**2 - fit["quartic"] * a**4
+    data = points.merge(fit).assign(fit=curve.assign_attrs(labeled(RATIO))).assign_coords(a=a)
+    top = points["amplitude"].max("ramp_time")
+    peaks = top * xr.DataArray(np.linspace(0.0, 1.0, 25), dims="node")
+    orbits = [
+        periodic_orbits(beam, omega, row[1:])
+        for omega, row in zip(points["omega"].to_numpy().tolist(), peaks.to_numpy(), strict=True)
+    ]
+    exact = [np.append(1.0, found.frequency / found.omega_n) for found in orbits]
+    return data.assign(exact_amplitude=peaks, exact=(peaks.dims, exact, labeled(RATIO)))
+
+
+def _fitted(points: xr.Dataset) -> xr.Dataset:
+    """Return λ_ω, κ and the error of λ_ω by least squares: ratio = 1 - λ_ω a² - κ a⁴ to _FITTED."""
     found = []
     for omega in points["omega"]:
         here = points.sel(omega=omega)
-        inside = (here["amplitude"] < below).to_numpy()
+        inside = (here["amplitude"] < _FITTED).to_numpy()
         square = here["amplitude"].to_numpy()[inside] ** 2
         columns = np.stack([square, square**2], axis=1)
         drop = 1.0 - here["ratio"].to_numpy()[inside]
@@ -141,36 +165,6 @@ def fitted_softening(points: xr.Dataset, *, below: float = 0.4) -> xr.Dataset:
         },
         {"omega": points["omega"]},
     )
-
-
-def figure_5(beam: Beam | None = None, **options: Any) -> xr.Dataset:
-    """Finite element points and the least-squares curves 1 - λ_ω a² - κ a⁴ (Fig. 5).
-
-    The paper draws parabolas; over its amplitudes, up to 0.84, none fits: least squares then give
-    a λ_ω a third or more too large at 6 and 8 rad/s. The curves are fitted for a < 0.6.
-
-    Returns
-    -------
-    Dataset
-        The points of the paper's mesh over (omega, ramp_time), `lambda_omega` and `quartic` κ over
-        omega, and the curves `fit` over (omega, a), up to a = 0.6. The exact backbone is `exact`
-        over `exact_amplitude`, (omega, node), up to the largest point of each speed. Options are
-        those of `finite_element_points`.
-    """
-    beam = beam or Beam.reference()
-    points = finite_element_points(beam, mesh="paper", **options)
-    fit = fitted_softening(points, below=_FITTED)
-    a = xr.DataArray(np.linspace(0.0, _FITTED, 61), dims="a", attrs=labeled(AMPLITUDE))
-    curve = 1.0 - fit["lambda_omega"] * a**2 - fit["quartic"] * a**4
-    data = points.merge(fit).assign(fit=curve.assign_attrs(labeled(RATIO))).assign_coords(a=a)
-    top = points["amplitude"].max("ramp_time")
-    peaks = top * xr.DataArray(np.linspace(0.0, 1.0, 25), dims="node")
-    orbits = [
-        periodic_orbits(beam, omega, row[1:])
-        for omega, row in zip(points["omega"].to_numpy().tolist(), peaks.to_numpy(), strict=True)
-    ]
-    exact = [np.append(1.0, found.frequency / found.omega_n) for found in orbits]
-    return data.assign(exact_amplitude=peaks, exact=(peaks.dims, exact, labeled(RATIO)))
 
 
 def figure_14(

@@ -185,38 +185,6 @@ def softening_map(beam: AnyBlade | None = None) -> xr.Dataset:
     )
 
 
-def softening_by_plane(beam: AnyBlade | None = None) -> xr.Dataset:
-    """Return λ_ω of FrM of lag alone and of flap alone, over the speed.
-
-    Flap alone is the blade set at a right angle: it bends out of the plane of rotation only, whose
-    Coriolis force then does nothing and whose centrifugal force does not soften the deflection. It
-    is rigid in lag; the lag of a real blade is driven at twice the frequency, and λ_ω of its flap
-    has a pole where 2ω_flap = ω_lag.
-
-    Parameters
-    ----------
-    beam : Beam or Blade, optional
-        By default the paper's beam; its own setting angle is replaced.
-
-    Returns
-    -------
-    Dataset
-        `lambda_omega` over (plane, w_bar), w̄ = ω/√(EI/ρAL⁴) from 0 to 10.
-    """
-    blade = Beam.reference() if beam is None else beam
-    speeds = np.linspace(0.0, 10.0, 101)
-    planes = {"lag": 0.0, "flap": 0.5 * np.pi}
-    coefficients = []
-    for angle in planes.values():
-        unit = blade.with_setting_angle(angle).unit
-        found = [blade_oscillator(unit, w_bar, coriolis=True) for w_bar in speeds.tolist()]
-        coefficients.append([one.oscillator.lambda_omega for one in found])
-    return dataset(
-        {"lambda_omega": (("plane", "w_bar"), coefficients, "λ_ω")},
-        {"plane": list(planes), "w_bar": (speeds, _W_BAR)},
-    )
-
-
 def growth_out_of_plane(
     blade: AnyBlade | None = None,
     *,

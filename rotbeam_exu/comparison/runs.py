@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -43,14 +42,7 @@ def reference_velocity(beam: Beam, spin_up: SpinUp) -> float:
     return reference_displacement(beam, spin_up) * frequency
 
 
-def figure_3(
-    beam: Beam | None = None,
-    *,
-    element: str = "cable",
-    meshes: Sequence[int] = (1, 2, 3),
-    spin_up: SpinUp | None = None,
-    duration: float = 30.0,
-) -> xr.Dataset:
+def figure_3() -> xr.Dataset:
     """Tip displacement with 1, 2 and 3 elements at ω = 4 rad/s, T = 15 s (Fig. 3).
 
     Returns
@@ -58,10 +50,10 @@ def figure_3(
     Dataset
         `q` [m] over (elements, time), and `exact`, the exact beam's, over time.
     """
-    beam, spin_up = beam or Beam.reference(), spin_up or SpinUp(omega=4.0, ramp_time=15.0)
-    runs = [simulate(beam, spin_up, element=element, elements=n, duration=duration) for n in meshes]
+    beam, spin_up, meshes = Beam.reference(), SpinUp(omega=4.0, ramp_time=15.0), [1, 2, 3]
+    runs = [simulate(beam, spin_up, elements=n, duration=30.0) for n in meshes]
     data = xr.concat([run["q"] for run in runs], dim="elements").to_dataset(name="q")
-    data["elements"] = ("elements", list(meshes), labeled("number of elements"))
+    data["elements"] = ("elements", meshes, labeled("number of elements"))
     exact = spin_up_response(beam, spin_up, data["time"].to_numpy(), tolerance=1e-5).q
     data["exact"] = ("time", exact, data["q"].attrs)
     motion = {name: runs[0].attrs[name] for name in ("omega", "ramp_time")}

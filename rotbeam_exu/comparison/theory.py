@@ -230,7 +230,7 @@ def model_budget(
         over (model, omega, a); a is the peak of |q|/L in all of them.
     """
     beam = beam or Beam.reference()
-    a = list(amplitudes)
+    a = np.asarray(amplitudes)
     error = np.empty((len(MODELS), len(SOURCES), len(omegas), len(a)))
     total = np.empty((len(MODELS), len(omegas), len(a)))
     with beyond_range():

@@ -2,48 +2,29 @@
 
 The only place that knows matplotlib. The data comes from the function of the same name in
 `rotbeam_exu.comparison`; `spin_up` takes a run, `campbell` a `Campbell`,
-`forced_response` and `planar_stability` what `rotbeam_exu.dataset_of` makes of theirs, and
-`divergence_speed` what `rotbeam_exu.fem.elements.linear_frames.divergence_speeds` returns.
+`forced_response` and `planar_stability` what `rotbeam_exu.dataset_of` makes of theirs.
 """
 
 from __future__ import annotations
 
-import xarray as xr
-
 from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
-from .paper_figure import PAPER_FIGURES
+from .paper_figure import PAPER_FIGURES, caption
 from .results import (
     campbell,
-    divergence_speed,
     forced_response,
     growth_out_of_plane,
     planar_stability,
     residual,
-    softening_by_plane,
     softening_map,
 )
 from .runs import figure_3, figure_4, figure_15, spin_up
-from .style import STYLE, STYLES, Style, save_figure, style
+from .style import STYLE, save_figure, style
 from .theory import figure_8, figure_9, figure_10, figure_11, figure_12, figure_13
 
 __all__ = [
-    "PAPER_FIGURES", "STYLE", "STYLES", "Style", "animate", "campbell", "caption",
-    "divergence_speed", "figure_3", "figure_4", "figure_5", "figure_8", "figure_9", "figure_10",
-    "figure_11", "figure_12", "figure_13", "figure_14", "figure_15", "forced_response",
-    "growth_out_of_plane", "planar_stability", "residual", "save_animation", "save_figure",
-    "softening_by_plane", "softening_map", "spin_up", "style",
+    "PAPER_FIGURES", "STYLE", "animate", "campbell", "caption", "figure_3", "figure_4", "figure_5",
+    "figure_8", "figure_9", "figure_10", "figure_11", "figure_12", "figure_13", "figure_14",
+    "figure_15", "forced_response", "growth_out_of_plane", "planar_stability", "residual",
+    "save_animation", "save_figure", "softening_map", "spin_up", "style",
 ]  # fmt: skip
-
-
-def caption(number: int, data: xr.Dataset) -> str:
-    """Return a figure's caption: the content, the beam, the paper's claim, and our answer.
-
-    Parameters
-    ----------
-    number : int
-        3, 4, 5, or 8 to 15.
-    data : Dataset
-        The data, as made by the function `figure_...` of `rotbeam_exu.comparison`.
-    """
-    return PAPER_FIGURES[number].caption(data)

@@ -215,8 +215,7 @@ def _two_frames(data: xr.Dataset) -> tuple[Axes, list[_Moving]]:
 def _two_models(data: xr.Dataset, beside: xr.Dataset) -> tuple[Axes, list[_Moving]]:
     """Return both histories, and what moves: inertial views of the exact and the linear beam."""
     exact, linear, history = _axes(4.6, 2.0 * _REACH, 2.0 * _REACH)
-    reach, time = _reach(data), _times(data)
-    moving = []
+    reach, moving = _reach(data), []
     for ax, of, title, color in (
         (exact, data, "exact beam", "black"),
         (linear, beside, "linear floating frame", RED),
@@ -227,13 +226,6 @@ def _two_models(data: xr.Dataset, beside: xr.Dataset) -> tuple[Axes, list[_Movin
     moving += [_history(history, of, _q(of), c, c) for of, c in ((beside, RED), (data, "black"))]
     history.set(ylim=(-_REACH, _REACH), ylabel="q/L")
     _mark_instability(history, beside)
-    path = _path(beside)
-    seen = np.maximum(np.abs(path.real), np.abs(path.imag)) <= _REACH * reach
-    left = float(_between(time)[seen][-1])
-    if left < time[-1]:
-        said = f"left the picture at {quantity(left, 's', 3)}"
-        text = linear.text(0.0, 0.02, said, color=RED, transform=linear.transAxes)
-        moving.append(lambda n: text.set_visible(time[n] >= left))
     return history, moving
 
 

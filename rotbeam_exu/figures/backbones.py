@@ -10,7 +10,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from scipy.interpolate import CubicSpline
 
-from ..comparison import backbones as made
 from ..paper import MODEL_NAMES
 from .paper_figure import EXACT, models, numerics, paper_figure, spin_ups
 from .style import column, columns, cycle, house_axes, label, model_line, typeset
@@ -22,7 +21,6 @@ _MESHES: dict[str, tuple[str, Any]] = {
 
 
 @paper_figure(
-    made.figure_5,
     shows=lambda data: (
         f"Frequency over amplitude of the finite element model, {spin_ups(data)}; a is half "
         "peak to peak of q/L. ω_n is that of the same mesh. Error bars of step, mesh and estimate "
@@ -36,7 +34,6 @@ _MESHES: dict[str, tuple[str, Any]] = {
         "large at 6 and 8 rad/s. The curves' λ_ω are within 1.5 % of the exact −0.00896, 0.00874, "
         "0.0197, 0.0238. λ_ω changes sign between 2 and 4 rad/s."
     ),
-    sweeps=True,
 )
 def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the finite element points and fitted curves, amplitude upwards as in the paper."""
@@ -64,7 +61,6 @@ def _points(ax: Axes, data: xr.Dataset, **look: Any) -> None:
 
 
 @paper_figure(
-    made.figure_14,
     shows=lambda data: (
         f"Backbones of {models(data)} and of the geometrically exact beam, black, with finite "
         f"element points, {spin_ups(data)}. {numerics(data)}"
@@ -80,7 +76,6 @@ def _points(ax: Axes, data: xr.Dataset, **look: Any) -> None:
         "smaller than the symbols. CI, CE, FrI and the points above a = 0.6 lie partly outside the "
         "axes."
     ),
-    sweeps=True,
 )
 def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
     """Draw the backbones of all models, the exact one, and the finite element points, by speed.

@@ -1,10 +1,10 @@
-"""A figure of the paper: its data, its drawing, its content, and the paper's claim on it."""
+"""Captions of the paper's figures: their content, the beam, and the paper's claim on them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import xarray as xr
 
@@ -21,37 +21,18 @@ EXACT = "black: the geometrically exact beam, by harmonic balance"
 
 @dataclass(frozen=True, kw_only=True)
 class PaperFigure:
-    """A figure of the paper that has data.
+    """Words on a figure of the paper that has data.
 
     Attributes
     ----------
-    data : callable
-        Returns its Dataset; the function of the same name in `comparison`.
-    draw : callable
-        Draws it; returns Axes, or some.
     shows : callable
         Returns, from the data, the sentence on models, speeds and mesh drawn.
     claim : str
         Claim of the paper, and our answer.
-    sweeps : bool
-        Whether the data come from a sweep, which takes `jobs`, `cache` and `progress`.
     """
 
-    data: Callable[..., xr.Dataset]
-    draw: Callable[..., Any]
     shows: Callable[[xr.Dataset], str]
     claim: str
-    sweeps: bool
-
-    def caption(self, data: xr.Dataset) -> str:
-        """Return the caption: the content, the beam, the paper's claim, and our answer.
-
-        Claim and answer are about the paper's beam and speeds, and are left out of other data.
-        """
-        plane = str(data.attrs.get("out_of_plane", ""))
-        claim = self.claim if _of_paper(data) else ""
-        words = " ".join([self.shows(data), _beam(data), claim, plane])
-        return typeset(" ".join(words.split()))
 
 
 PAPER_FIGURES: dict[int, PaperFigure] = {}
@@ -59,36 +40,45 @@ PAPER_FIGURES: dict[int, PaperFigure] = {}
 
 
 def paper_figure(
-    data: Callable[..., xr.Dataset],
-    *,
-    shows: Callable[[xr.Dataset], str],
-    claim: str,
-    sweeps: bool = False,
+    *, shows: Callable[[xr.Dataset], str], claim: str
 ) -> Callable[[Callable[..., T]], Callable[..., T]]:
-    """Decorate the drawing `figure_N` of the data that a function makes: Figure N."""
+    """Decorate the drawing `figure_N` of the data of that name: Figure N."""
 
     def known(draw: Callable[..., T]) -> Callable[..., T]:
-        draw = takes_own(draw)
-        PAPER_FIGURES[int(draw.__name__.removeprefix("figure_"))] = PaperFigure(
-            data=data, draw=draw, shows=shows, claim=claim, sweeps=sweeps
-        )
-        return draw
+        number = int(draw.__name__.removeprefix("figure_"))
+        PAPER_FIGURES[number] = PaperFigure(shows=shows, claim=claim)
+        return takes_own(draw)
 
     return known
 
 
+def caption(number: int, data: xr.Dataset) -> str:
+    """Return a figure's caption: the content, the beam, the paper's claim, and our answer.
+
+    Claim and answer are about the paper's beam and speeds, and are left out of other data.
+
+    Parameters
+    ----------
+    number : int
+        3, 4, 5, or 8 to 15.
+    data : Dataset
+        The data, as made by the function `figure_...` of `rotbeam_exu.comparison`.
+    """
+    figure = PAPER_FIGURES[number]
+    claim = figure.claim if _of_paper(data) else ""
+    words = " ".join([figure.shows(data), _beam(data), claim, data.attrs.get("out_of_plane", "")])
+    return typeset(" ".join(words.split()))
+
+
 def _of_paper(data: xr.Dataset) -> bool:
     """Return whether data are of the paper's beam, and of all its spin-ups if it has a grid."""
-    known = {"beam_length", "blade"} & set(data.attrs)
-    if known and beam_of(data.attrs) != Beam.reference():
+    if beam_of(data.attrs) != Beam.reference():
         return False
     grid = {"omega": SPEEDS, "ramp_time": RAMP_TIMES} if "ramp_time" in data.dims else {}
     return all(set(values) <= set(data[name].values.tolist()) for name, values in grid.items())
 
 
 def _beam(data: xr.Dataset) -> str:
-    if not {"beam_length", "blade"} & set(data.attrs):
-        return ""
     beam = beam_of(data.attrs)
     return (
         f"Beam: L = {quantity(beam.length, 'm')}, EI = {beam.bending_stiffness:.5g} N m², "
@@ -103,8 +93,6 @@ def numerics(data: xr.Dataset) -> str:
     attrs = data.attrs
     if "meshes" in attrs:
         return f"Exudyn: {attrs['meshes']}."
-    if "step" not in attrs:
-        return ""
     elements = f"{attrs['elements']} " if "elements" in attrs else ""
     return (
         f"Exudyn: {elements}{attrs['element']} elements, step {1e3 * attrs['step']:g} ms, "

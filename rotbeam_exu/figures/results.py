@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import matplotlib as mpl
@@ -142,26 +142,6 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 @takes_own
-def divergence_speed(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the divergence speed over the number of substructures, for either frame."""
-    omega_0, counts = float(data.attrs["omega_0"]), data["substructures"]
-    with house_axes(ax, column(), 2.6) as axes:
-        axes.axhline(omega_0, color="0.6", lw=0.5)
-        place = (int(counts[-1]), omega_0)
-        axes.annotate("$ω_0$", place, xytext=(0, 3), textcoords="offset points", ha="right")
-        for frame, color, mark in (("tangent", BLUE, "o"), ("pinned", ORANGE, "s")):
-            speeds = data["divergence_speed"].sel(frame=frame)
-            name = f"{frame} frames"
-            axes.plot(counts, speeds, color=ink(color), marker=mark, ms=3.0, label=name)
-        axes.set(xscale="log", yscale="log", xlabel=label(counts), ylabel=label(speeds))
-        axes.xaxis.set_major_locator(mpl.ticker.FixedLocator([float(n) for n in counts]))
-        axes.xaxis.set_major_formatter(mpl.ticker.ScalarFormatter())
-        axes.xaxis.set_minor_locator(mpl.ticker.NullLocator())
-        axes.legend()
-    return axes
-
-
-@takes_own
 def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw λ_ω, its zero line, and the lines on which ω_2/ω_n is 3, 4 and 5."""
     x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
@@ -186,48 +166,11 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 @takes_own
-def softening_by_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw λ_ω of lag alone and of flap alone, with the speeds at which it changes sign."""
-    x = data["w_bar"].to_numpy()
-    with house_axes(ax, column(), 2.4) as axes:
-        axes.axhline(0.0, color="0.6", lw=0.5)
-        # Where each name of a zero is clear of both curves.
-        for plane, color, dashes, at, side in (
-            ("lag", ink(BLUE), "-", (4, -9), "left"),
-            ("flap", ink(RED), "--", (-4, 3), "right"),
-        ):
-            values = data["lambda_omega"].sel(plane=plane).to_numpy()
-            axes.plot(x, values, color=color, ls=dashes, label=plane)
-            for k in np.flatnonzero(np.diff(np.sign(values))):
-                zero = x[k] - values[k] * (x[k + 1] - x[k]) / (values[k + 1] - values[k])
-                axes.plot(zero, 0.0, "o", color=color, ms=3)
-                axes.annotate(
-                    f"{zero:.2f}", (zero, 0.0), xytext=at, textcoords="offset points",
-                    fontsize=6.5, color=color, ha=side,
-                )  # fmt: skip
-        axes.set(xlabel=label(data["w_bar"]), ylabel=label(data["lambda_omega"]))
-        axes.set_xlim(x[0], x[-1])
-        for words, place, ha in (
-            ("softening", (0.02, 0.93), "left"),
-            ("hardening", (0.98, 0.03), "right"),
-        ):
-            axes.text(*place, words, transform=axes.transAxes, ha=ha, color="0.35")
-        axes.legend()
-    return axes
-
-
-@takes_own
-def growth_out_of_plane(
-    data: xr.Dataset,
-    ax: Axes | None = None,
-    *,
-    spin_ups: Mapping[float, Sequence[float]] | None = None,
-) -> Axes:
+def growth_out_of_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the map of growth rates over speed and amplitude; white stays in the plane.
 
     The line is where growth begins: the limit, and below it the tongues. It is smooth with damping,
-    where what is stable decays. Grey is where no orbit was found. `spin_ups` has amplitudes |q|/L
-    on which spin-ups end, by their speeds [rad/s]; larger ones than the map's are left out.
+    where what is stable decays. Grey is where no orbit was found.
     """
     omega, a, rate = data["omega"].to_numpy(), data["a"].to_numpy(), data["growth_rate"].to_numpy()
     with house_axes(ax, column(), 3.2) as axes:
@@ -241,17 +184,8 @@ def growth_out_of_plane(
         bar = axes.figure.colorbar(drawn, ax=axes, ticks=_GROWTH_LEVELS, format="%g")
         bar.set_label(label(data["growth_rate"]))
         axes.contour(omega, a, known, [0.0], colors="black", linewidths=0.7)
-        edge = axes.plot([], [], color="black", lw=0.7, label="limit and tongues")
-        ends = [
-            (speed, peak)
-            for speed, peaks in (spin_ups or {}).items()
-            for peak in peaks
-            if peak <= a[-1]
-        ]
-        if ends:
-            edge += axes.plot(*np.transpose(ends), "o", ms=3.2, mfc="white", mec="black", mew=0.7,
-                              clip_on=False, label="ends of spin-ups")  # fmt: skip
-        axes.legend(handles=edge, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+        axes.plot([], [], color="black", lw=0.7, label="limit and tongues")
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
         axes.text(0.97, 0.1, "stable in the plane", transform=axes.transAxes, ha="right")
         axes.set(
             xlabel=label(data["omega"]), ylabel=label(data["a"]), yscale="log",

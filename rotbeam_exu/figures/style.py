@@ -54,57 +54,42 @@ STYLE: Any = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Style:
-    """Style of a figure, as a journal asks for it.
-
-    Parameters
-    ----------
-    column, columns : float
-        Widths of one and of two columns [mm].
-    grey : bool
-        Black and greys only; lines are told apart by dashes and marks.
-    font : str
-        Family, such as "Times New Roman"; matplotlib's own unless given.
-    formats : tuple of str
-        Endings of the saved files, such as "svg".
-    """
+class _Style:
+    """Widths of one and of two columns [mm], colors or greys, and endings of the saved files."""
 
     column: float = 88.9
     columns: float = 182.88
     grey: bool = False
-    font: str = ""
     formats: tuple[str, ...] = ("png", "pdf")
 
     @property
     def settings(self) -> Any:
         """Matplotlib's settings of the style."""
         colors = tuple(_GREYS[color] for color in _CYCLE) if self.grey else _CYCLE
-        font = {"font.family": self.font} if self.font else {}
-        return {**STYLE, "axes.prop_cycle": cycler(color=(*colors, "0.4")), **font}
+        return {**STYLE, "axes.prop_cycle": cycler(color=(*colors, "0.4"))}
 
 
-STYLES = {
-    "house": Style(),
-    "journal": Style(column=84.0, columns=174.0, formats=("pdf", "svg")),
-    "grey": Style(column=84.0, columns=174.0, grey=True, formats=("pdf", "svg")),
+_PRINT = ("pdf", "svg")
+_STYLES = {
+    "house": _Style(),
+    "journal": _Style(column=84.0, columns=174.0, formats=_PRINT),
+    "grey": _Style(column=84.0, columns=174.0, grey=True, formats=_PRINT),
 }
-"""Styles by name: "journal" has Springer's widths, "grey" is that without colors."""
-
 _GAP = 6.0  # between two columns [mm]
-_ACTIVE: ContextVar[Style] = ContextVar("style", default=STYLES["house"])
+_ACTIVE: ContextVar[_Style] = ContextVar("style", default=_STYLES["house"])
 _OWN: ContextVar[Sequence[Mapping[str, Any]]] = ContextVar("own", default=())
 _OWN_POINTS: Any = {"ls": "none", "ms": 4.0, "mfc": "white", "mew": 1.0, "zorder": 9}
 
 
 @contextmanager
-def style(wanted: str | float | Style = "journal") -> Iterator[Style]:
+def style(wanted: str | float = "journal") -> Iterator[None]:
     """Draw and save in another style: with figures.style("grey"): figures.figure_8(data).
 
     Parameters
     ----------
-    wanted : {"house", "journal", "grey"}, float or Style
-        The width of a journal's column [mm], of two columns twice that and a gap of 6 mm; or
-        `Style(column=90.0, columns=190.0, grey=True, formats=("svg",))`, one of your own.
+    wanted : {"house", "journal", "grey"} or float
+        "journal" has Springer's columns of 84 and 174 mm, "grey" is that without colors. Or the
+        width of a journal's column [mm]; two columns are twice that and a gap of 6 mm.
 
     Raises
     ------
@@ -112,16 +97,17 @@ def style(wanted: str | float | Style = "journal") -> Iterator[Style]:
         If there is no style of that name.
     """
     if isinstance(wanted, int | float):
-        wanted = Style(column=wanted, columns=2.0 * wanted + _GAP, formats=("pdf", "svg"))
-    if not isinstance(wanted, Style) and wanted not in STYLES:
+        chosen = _Style(column=wanted, columns=2.0 * wanted + _GAP, formats=_PRINT)
+    elif wanted in _STYLES:
+        chosen = _STYLES[wanted]
+    else:
         raise ValueError(
-            f"unknown style {wanted!r}; known are {', '.join(STYLES)}; another is a figures.Style"
+            f"unknown style {wanted!r}; known are {', '.join(_STYLES)}, or a column's width in mm"
         )
-    chosen = wanted if isinstance(wanted, Style) else STYLES[wanted]
     before = _ACTIVE.set(chosen)
     try:
         with mpl.rc_context(chosen.settings):
-            yield chosen
+            yield
     finally:
         _ACTIVE.reset(before)
 

@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from ..comparison import theory as made
 from ..paper import MODEL_LINES, MODEL_NAMES
 from .paper_figure import EXACT, listed, paper_figure
 from .style import column, columns, cycle, house_axes, inset, label, model_line, ramp, typeset
@@ -23,7 +22,6 @@ _RATIO = "Ω = ω/ω₀, ω₀ the first frequency at rest"
 
 
 @paper_figure(
-    made.figure_8,
     shows=lambda data: (
         f"Backbones of the model CI ({MODEL_NAMES['CI']}), Eq. 63, at Ω = 0, 1 and → ∞, shaded "
         f"between; {EXACT}, at Ω = {listed(data['exact_speed_ratio'])}; {_RATIO}. Inset: the "
@@ -59,7 +57,6 @@ def figure_8(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 @paper_figure(
-    made.figure_9,
     shows=lambda _: (
         f"{_COEFFICIENTS} against {_RATIO}: the model CI ({MODEL_NAMES['CI']}); {EXACT}. {_NEAR}"
     ),
@@ -74,7 +71,6 @@ def figure_9(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axe
 
 
 @paper_figure(
-    made.figure_10,
     shows=lambda _: (
         f"{_COEFFICIENTS} against ω, inextensible, by the cantilever's mode (CI) and by "
         f"polynomials of degree 3, 4 and 5; {EXACT}. {_NEAR}"
@@ -91,7 +87,6 @@ def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
 
 
 @paper_figure(
-    made.figure_11,
     shows=lambda data: (
         f"{_COEFFICIENTS} against ω by the model CE ({MODEL_NAMES['CE']}) for several "
         f"slendernesses μ = I/(AL²); {data.attrs['held']}; {EXACT}, of the same μ in the same "
@@ -159,7 +154,6 @@ def _shows_12(data: xr.Dataset) -> str:
 
 
 @paper_figure(
-    made.figure_12,
     shows=_shows_12,
     claim="The paper uses degree 36. At 8 rad/s the error is 2.1·10⁻⁴ rad/s. Eq. 81 is corrected.",
 )
@@ -200,7 +194,6 @@ def _shows_13(data: xr.Dataset) -> str:
 
 
 @paper_figure(
-    made.figure_13,
     shows=_shows_13,
     claim="The paper states that the difference grows with speed. It does: tension straightens.",
 )

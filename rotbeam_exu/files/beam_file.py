@@ -153,8 +153,6 @@ def _read_toml(source: Path) -> dict[str, Any]:
     try:
         # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
         return tomllib.loads(source.read_text(encoding="utf-8-sig"))
-    except RecursionError as error:
-        raise ValueError(f"{source} is not a beam: it is nested too deeply") from error
     except ValueError as error:  # of TOML, of UTF-8, or of an integer with too many digits
         comma = _DECIMAL_COMMA.search(source.read_text(encoding="utf-8", errors="replace"))
         hint = f"; write {comma[1]}.{comma[2]} for {comma[1]},{comma[2]}" if comma else ""
@@ -166,12 +164,8 @@ def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
     for name in document:
         if name not in ("beam", "blade"):
             raise ValueError(
-                f"{source}: unknown table or key {name!r}; "
-                + (
-                    tables.home(name)
-                    or "the beam is in [beam], a blade in [blade], what a run needs in "
-                    "[motion], [numerics] and [[loads]]"
-                )
+                f"{source}: unknown table or key {name!r}; the beam is in [beam], a blade in "
+                "[blade], what a run needs in [motion], [numerics] and [[loads]]"
             )
     if len(document) == 2:
         raise ValueError(f"{source} has both [beam] and [blade]: keep one")

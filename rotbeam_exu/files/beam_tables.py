@@ -88,24 +88,10 @@ def require_keys(table: Any, title: str, source: Path, keys: Table) -> None:
         if key not in known:
             close = difflib.get_close_matches(key, known, n=1)
             hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(known)}"
-            raise ValueError(f"{source}: unknown key {key!r} in {title}; {home(key) or hint}")
+            raise ValueError(f"{source}: unknown key {key!r} in {title}; {hint}")
     missing = [key for key in keys.required if key not in table]
     if missing:
         raise ValueError(f"{source}: {title} lacks {', '.join(missing)}")
-
-
-def home(key: str) -> str:
-    """Return where a key belongs, or nothing if no table has it."""
-    found = [f"[{name}]" for name, told in _DOCUMENT.optional.items() if key in _keys(told)]
-    found += [f"[blade.{name}]" for name, told in BLADE.optional.items() if key in _keys(told)]
-    return f"it belongs in {' or '.join(found)}" if found else ""
-
-
-def _keys(told: Any) -> set[str]:
-    """Return the keys of a table or of alternatives; of another value, none."""
-    if isinstance(told, Table):
-        return {*told.required, *told.optional}
-    return set().union(*map(_keys, told)) if isinstance(told, tuple) else set()
 
 
 def schema() -> dict[str, Any]:

@@ -1,10 +1,25 @@
 """What is taken for a number, and what is not: arrays, quantities with units, round-off."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 import xarray as xr
 
-from analytic import Beam, Blade, Rectangle, Section, linear_modes, periodic_orbits, reduced_model
+from analytic import (
+    Beam,
+    Blade,
+    FourierRamp,
+    Rectangle,
+    Section,
+    SpeedTable,
+    SpinUp,
+    SteadyRotation,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    residual_amplitude,
+)
 from analytic.input_checks import (
     finite_array,
     finite_values,
@@ -106,6 +121,33 @@ def test_numbers_of_numpy_come_out_as_those_of_python():
     modes = linear_modes(Beam.reference(), np.int64(4), np.int32(2))
     assert type(modes.omega) is float
     assert modes.frequencies.shape == (2,)
+
+
+def answers(n):
+    """Answers to numbers of type `n`, each exact in half precision."""
+    spin_up = SpinUp(omega=n(2), ramp_time=n(3))
+    table = SpeedTable([n(0), n(1), n(3)], [n(0), n(2), n(3)])
+    steady, ramp = SteadyRotation(omega=n(6)), FourierRamp(omega=n(6), ramp_time=n(3))
+    section = Section(
+        axial_stiffness=n(2048), bending_stiffness=(n(512), n(-256)), mass_per_length=n(0.25)
+    )
+    yield from (spin_up, table, steady, ramp, section)
+    for motion in (spin_up, table, steady):
+        yield motion.angle(n(1.25)), motion.rate(n(1.25)), motion.acceleration(n(1.25))
+    yield Blade(length=n(8), section=section, hub_radius=n(0.5)).with_tip_mass(n(0.125)).omega_0
+    yield reduced_model(Beam.reference(), n(6), "FrM").frequency(n(0.125))
+    yield residual_amplitude(Beam.reference(), spin_up, [n(3), n(4)], corrected=True).tolist()
+    several = np.array([1.25, 3.5], dtype=object if n is Fraction else n)
+    yield reduced_model(Beam.reference(), 6.0).frequency(several / 32).tolist()
+    for motion in (spin_up, ramp, steady) if n is not Fraction else ():
+        yield motion.angle(several).tolist(), motion.acceleration(several).dtype
+
+
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.longdouble, Fraction])
+def test_the_type_of_a_number_changes_no_bit(kind):
+    expected = list(answers(float))
+    found = list(answers(kind))
+    assert found == expected[: len(found)]
 
 
 def test_points_are_put_on_the_ends_within_round_off():

@@ -82,12 +82,9 @@ def test_the_axis_ends_at_the_tip_and_grows_longer(beam):
     assert response.axis[:, -1, 1] == pytest.approx(response.q, rel=1e-12)
     assert np.all(response.axis[..., 0] == points)
     assert response.q[0] == response.q[1]
+    assert linear_response(beam, spin_up, [0.0]).q.tolist() == [0.0]
     lengths = np.hypot(*np.moveaxis(np.diff(response.axis, axis=1), -1, 0)).sum(axis=1)
     assert np.all(lengths > 1.1 * beam.length)
-
-
-def test_at_rest_it_rests(beam):
-    assert linear_response(beam, SpinUp(omega=4.0, ramp_time=3.0), [0.0, 0.0]).q.tolist() == [0, 0]
 
 
 def test_refuses(beam):

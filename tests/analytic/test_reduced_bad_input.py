@@ -75,7 +75,8 @@ def test_amplitude_is_a_number(value):
 
 def test_a_warning_points_at_its_caller_and_ends_where_the_model_is_right(beam):
     for call, sentence in (
-        (lambda: MODEL.frequency([0.1, 0.3]), r"amplitude 0\.3 is above 0\.2"),
+        (lambda: MODEL.frequency([0.1, 0.3]), r"amplitude 0\.3 is above 0\.2, the paper's own"),
+        (lambda: reduced_model(beam, 4.0, "FrM5").frequency(0.5), r"0\.5 is above 0\.4, .* a⁶"),
         (lambda: reduced_model(beam, 10.0, "FrE"), r"2\.22 times .*29\.62 rad/s.*take FrM"),
     ):
         with pytest.warns(RotbeamWarning, match=sentence) as caught:

@@ -114,7 +114,8 @@ def test_closed_form_at_both_ends_of_the_paper(beam):
 
 @pytest.mark.parametrize(
     ("omega", "T", "left"),
-    [QUIET[0], *(pytest.param(*one, marks=pytest.mark.slow) for one in QUIET[1:])],
+    # At 4 rad/s a minimum that is there by chance would be believed without a slope.
+    [pytest.param(*one, marks=[] if one[0] == 4.0 else pytest.mark.slow) for one in QUIET],
 )
 def test_quiet_ramp_times(beam, omega, T, left):
     found = quiet_ramp_times(beam, omega, longest=T + 0.2)
@@ -159,10 +160,10 @@ def test_order_of_what_a_wrong_frequency_leaves(beam, fitted_order, robust, erro
 
 
 def test_largest_deflection_on_the_way_is_kept(beam):
-    """Free it is 0.71 L."""
-    ramp = design_ramp(beam, 6.0, 2.0, largest=0.6)
+    """Free it is 0.32 L."""
+    ramp = design_ramp(beam, 2.0, 2.0, largest=0.2)
     motion = spin_up_response(beam, ramp, np.linspace(0.0, 2.0, 401))
-    assert np.abs(motion.q).max() <= 0.6 * beam.length
+    assert np.abs(motion.q).max() <= 0.2 * beam.length
     # The corrections end where 1e-6 of each mode is left for small oscillations.
     assert residual_amplitude(beam, ramp, exact=True) < 1e-5
 

@@ -20,6 +20,7 @@ SLOW = (
 
 ASK = """
 import contextlib, io, json, sys
+import analytic, rotbeam_exu.fem.elements
 from rotbeam_exu.cli import main
 
 def answer(line):
@@ -55,21 +56,8 @@ def answers_of(lines, folder, *without):
     return json.loads(run.stdout)
 
 
-def test_help_imports_nothing_slow_and_what_only_prints_no_xarray(tmp_path):
-    """In this order, for what one has imported stays."""
-    helps = ["--help", *(f"{command} --help" for command in _COMMANDS)]
-    lines = ["backbone --omega 6", "campbell --points 3 --count 2", "table 1"]
-    got = answers_of([*helps, *lines], tmp_path)
-    for line in helps:
-        assert (line, got[line]["code"], got[line]["slow"]) == (line, 0, [])
-        assert "Usage" in got[line]["out"]
-    assert {line: got[line]["code"] for line in lines} == dict.fromkeys(lines, 0)
-    not_theory = {"exudyn", "xarray", "pandas", "h5netcdf", "h5py", "matplotlib", "distributed"}
-    # Of all before it as well: what is imported stays.
-    assert not set(got["table 1"]["slow"]) & not_theory
-    assert "sympy" not in got["campbell --points 3 --count 2"]["slow"]
-
-
+HELPS = ["--help", *(f"{command} --help" for command in _COMMANDS)]
+PRINTING = ["backbone --omega 6", "campbell --points 3 --count 2", "table 1"]
 THEORY = {
     "table 3": "Table 3",
     "backbone --omega 6 --all-variants --exact --amplitude 0.1": "exact",
@@ -90,8 +78,7 @@ NEEDS_EXUDYN = (
 )  # fmt: skip
 
 
-# A second each, of the theory that the others ask as well; that backbone, campbell and table
-# import no Exudyn is tested above.
+# A second each, of the theory that the others ask as well.
 DEAR = ("backbone", "campbell", "ramp", "respond", "stability", "figure", "table", "kit", "judge")
 
 
@@ -108,8 +95,20 @@ def test_all_theory_works_without_exudyn(tmp_path):
 
 
 def test_without_exudyn_theory_works_and_the_rest_says_what_is_missing(tmp_path):
+    """Help imports nothing slow, nor do the packages; what only prints, no xarray.
+
+    In this order, for what one has imported stays.
+    """
     quick = [line for line in THEORY if not line.startswith(DEAR)]
-    got = answers_of([*quick, "doctor", *NEEDS_EXUDYN], tmp_path, "exudyn")
+    lines = [*HELPS, *PRINTING, *quick, "doctor", *NEEDS_EXUDYN]
+    got = answers_of(lines, tmp_path, "exudyn")
+    for line in HELPS:
+        assert (line, got[line]["code"], got[line]["slow"]) == (line, 0, ["exudyn"])
+        assert "Usage" in got[line]["out"]
+    assert {line: got[line]["code"] for line in PRINTING} == dict.fromkeys(PRINTING, 0)
+    not_theory = {"xarray", "pandas", "h5netcdf", "h5py", "matplotlib", "distributed"}
+    assert not set(got["table 1"]["slow"]) & not_theory
+    assert "sympy" not in got["campbell --points 3 --count 2"]["slow"]
     check_theory(got)
     assert got["doctor"]["code"] == 0
     assert "not run: Exudyn cannot be imported" in got["doctor"]["out"]
@@ -139,23 +138,3 @@ def test_the_judge_does_without_what_only_models_and_figures_need(tmp_path):
     judged = got[with_a_mistake]
     assert (judged["code"], judged["error"]) == (1, "")
     assert "S1: a usual mistake?" in judged["out"]
-
-
-def test_packages_import_nothing_slow():
-    script = "import sys, analytic, rotbeam_exu, rotbeam_exu.fem.elements; print(*sys.modules)"
-    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert not set(run.stdout.split()) & set(SLOW)
-
-
-def test_threads_may_import_at_the_same_time(tmp_path):
-    """The first use may be in two threads at once, and each gets the whole library."""
-    script = tmp_path / "threads.py"
-    script.write_text(
-        "from concurrent.futures import ThreadPoolExecutor\n"
-        "from analytic import Beam, linear_modes\n"
-        "with ThreadPoolExecutor(8) as pool:\n"
-        "    jobs = [pool.submit(linear_modes, Beam.reference(), 6.0, 2) for _ in range(8)]\n"
-        "    print(len({float(job.result().frequencies[0]) for job in jobs}))\n"
-    )
-    run = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=False)
-    assert run.stdout.split() == ["1"], run.stderr

@@ -1,11 +1,9 @@
-"""Numbers and options of an element: what is none is refused, and what would never end."""
+"""Numbers: what is none is refused, and what would never end."""
 
-import json
 import math
 
 import pytest
 
-from rotbeam_exu import load
 from rotbeam_exu.cli.output import print_columns
 
 
@@ -52,32 +50,3 @@ def test_a_zero_at_the_end_of_a_number_is_shown_where_its_neighbors_have_a_digit
     assert [row[1::2] for row in rows] == [
         ["3.730330", "0.10", "1e-09"], ["3.730329", "0.05", "-"],
     ]  # fmt: skip
-
-
-SHORT = ("run", "--omega", "2", "--ramp-time", "3", "--elements", "2", "--duration", "8",
-         "--step", "0.01", "--no-figure")  # fmt: skip
-
-
-def test_options_reach_the_element_and_the_file(call, tmp_path):
-    options = ("--option", "nodes=3", "--option", "poisson_ratio=0.25")
-    out = call(*SHORT, "--element", "exact", *options, "--out", tmp_path)[1]
-    assert "exact, nodes=3, poisson_ratio=0.25" in out
-    run = load(next(tmp_path.glob("*.nc")))
-    assert run.attrs["element"] == "exact"
-    made = {"kind": "Exact", "nodes": 3, "poisson_ratio": 0.25}
-    assert made.items() <= json.loads(run.attrs["element_options"]).items()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (("--option", "nodes=3"), "element 'cable' has no option 'nodes'; it has no options"),
-        (("--element", "exact", "--option", "nodes"), "given as name=value, got 'nodes'"),
-        (("--element", "ancf3", "--option", "poisson_ratio=much"), "poisson_ratio must be a numb"),
-    ],
-)
-def test_refuses(call, tmp_path, arguments, sentence):
-    code, _, error = call(*SHORT, *arguments, "--out", tmp_path)
-    assert code == 2
-    assert sentence in error
-    assert len(error.strip().splitlines()) == 1

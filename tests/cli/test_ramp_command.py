@@ -7,14 +7,14 @@ import pytest
 
 from rotbeam_exu import comparison, load
 
-QUICK = ("--omega", "2", "--longest", "4.6", "--points", "3", "--finite-element-points", "1")
+QUICK = ("--omega", "2", "--longest", "4.6", "--points", "2", "--finite-element-points", "1")
 
 
 def test_tables_and_files(call, tmp_path, monkeypatch):
     asked = ("ramp", *QUICK, "--elements", "4", "--out", tmp_path)
     code, out, error = call(*asked)
     assert code == 0
-    assert "4 of 4 done" in error
+    assert "3 of 3 done" in error
     rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
     # Another code's quiet ramp, and what it leaves.
     quiet, left, form = map(float, rows[0])
@@ -33,7 +33,7 @@ def test_tables_and_files(call, tmp_path, monkeypatch):
     told = [line for line in out.splitlines() if line.startswith("written ")]
     assert sorted(told) == sorted(f"written {path}" for path in tmp_path.iterdir())
     data = load(tmp_path / f"{name}.nc")
-    assert data["exact"].size == 3
+    assert data["exact"].size == 2
     assert data["quiet_ramp_time"].to_numpy() == pytest.approx([quiet], abs=1e-4)
     assert np.all(data["corrected"] <= data["linear"])
 
@@ -43,9 +43,10 @@ def test_tables_and_files(call, tmp_path, monkeypatch):
 
     monkeypatch.setattr(comparison, "residual", stopped)
     assert call(*asked)[0] == 130
-    code, _, error = call(*("4" if text == "3" else text for text in asked))
+    points = asked.index("--points") + 1
+    code, _, error = call(*asked[:points], "3", *asked[points + 1 :])
     assert code == 2
-    assert "points 3 instead of 4" in error
+    assert "points 2 instead of 3" in error
 
 
 def test_what_it_refuses(call, tmp_path):

@@ -1,23 +1,23 @@
 """Nothing that was computed is lost: other inputs do not replace it, and failures are kept."""
 
-from dataclasses import replace
-
 import pytest
 
-from rotbeam_exu import figures, load
+import analytic
+from rotbeam_exu import comparison, explorer, figures, load
 from rotbeam_exu.fem import simulation
-from rotbeam_exu.runs import oscillation
 from rotbeam_exu.sweeps import grid
+from rotbeam_exu.verification import verify
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
+QUICK = ("--no-figure", "--no-exact")
 BEAM = (
     "[beam]\nlength = {}\naxial_stiffness = 5e6\nbending_stiffness = 566.0\nmass_per_length = 0.2\n"
 )
 
 
 def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp_path, monkeypatch):
-    assert call("run", *SHORT, "--out", tmp_path)[0] == 0
-    assert call("run", *SHORT, "--no-figure", "--out", tmp_path)[0] == 0
+    assert call("run", *SHORT, "--no-exact", "--out", tmp_path)[0] == 0
+    assert call("run", *SHORT, *QUICK, "--out", tmp_path)[0] == 0
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     (tmp_path / "beam.toml").write_text(BEAM.format(8.0))
     with monkeypatch.context() as patch:
@@ -40,8 +40,8 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
             assert "choose another folder with --out, or --force" in error
             assert len(error.strip().splitlines()) == 1
     assert all(path.read_bytes() == text for path, text in before.items())
-    other = ("--frame", "rotating", "--no-figure", "--force")
-    assert call("run", *SHORT, *other, "--out", tmp_path)[0] == 0
+    other = ("--frame", "rotating", "--force")
+    assert call("run", *SHORT, *QUICK, *other, "--out", tmp_path)[0] == 0
     assert load(next(tmp_path.glob("*.nc"))).attrs["frame"] == "rotating"
 
 
@@ -64,8 +64,7 @@ def test_a_failed_run_is_kept_and_marked(call, tmp_path):
     assert f"the part that was computed is in {kept}, marked failed" in error
     assert load(kept).attrs["verdict"].startswith("failed: ")
     # And where nothing failed, nothing is in the way.
-    good = ("--step", "0.01", "--duration", "10", "--no-figure")
-    assert call("run", "--elements", "2", "--ramp-time", "2.5", *good, "--out", tmp_path)[0] == 0
+    assert call("run", *SHORT, *QUICK, "--ramp-time", "2.5", "--out", tmp_path)[0] == 0
 
 
 def test_a_sweep_does_not_replace_another_grid(call, tmp_path, monkeypatch):
@@ -85,28 +84,29 @@ def test_a_sweep_does_not_replace_another_grid(call, tmp_path, monkeypatch):
     assert swept("--omega", "5", "--ramp-time", "3", "--force")[0] == 0
 
 
-def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
-    def stopped(*_, **__):
-        raise KeyboardInterrupt
+def stopped(*_, **__):
+    raise KeyboardInterrupt
 
-    monkeypatch.setattr(grid, "sweep", stopped)
-    code, _, error = call("sweep", "--cache", tmp_path / "c", "--out", tmp_path)
-    assert code == 130
-    assert f"interrupted; finished spin-ups are kept in the cache {tmp_path}/c" in error
 
-    def later(_):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(oscillation, "steady_oscillation", later)
-    code, _, error = call("run", *SHORT, "--out", tmp_path)
-    assert code == 130
-    assert f"kept: {tmp_path}/cable-2-omega-6-ramp-3.nc" in error
-
-    fourteen = replace(figures.PAPER_FIGURES[14], data=stopped)
-    monkeypatch.setitem(figures.PAPER_FIGURES, 14, fourteen)
-    code, _, error = call("figure", "14", "--cache", tmp_path / "c", "--out", tmp_path)
-    assert code == 130
-    assert f"finished spin-ups are kept in the cache {tmp_path}/c" in error
+@pytest.mark.parametrize(
+    ("command", "room", "name"),
+    [
+        ("sweep", grid, "sweep"),
+        ("explore", explorer, "explorer_page"),
+        ("compare", comparison, "figure_14"),
+        ("verify --element cable", verify, "verify"),
+        ("reference", analytic, "spin_up_response"),
+    ],
+)
+def test_ctrl_c_says_what_is_kept_or_that_nothing_is(
+    call, tmp_path, monkeypatch, command, room, name
+):
+    monkeypatch.setattr(room, name, stopped)
+    monkeypatch.chdir(tmp_path)
+    kept = "nothing was written"
+    if command in ("sweep", "explore", "compare"):
+        command, kept = f"{command} --cache c", "finished spin-ups are kept in the cache c"
+    assert call(*command.split())[::2] == (130, f"rotbeam: interrupted; {kept}\n")
 
 
 @pytest.mark.parametrize(
@@ -116,21 +116,13 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
             "ramp --omega 2 --longest 3 --points 0 --finite-element-points 0",
             "residual", "ramp-omega-2-longest-3",
         ),
-        (
-            "stability --omega 6 --section tube --amplitude 0.02",
-            "planar_stability", "stability-tube-omega-6-mode-1",
-        ),
         ("figure 8", "figure_8", "figure_8"),
     ],
 )  # fmt: skip
 def test_ctrl_c_while_a_figure_is_drawn_says_where_its_data_is(
     call, tmp_path, monkeypatch, command, drawing, name
 ):
-    def stopped(*_, **__):
-        raise KeyboardInterrupt
-
     monkeypatch.setattr(figures, drawing, stopped)
-    monkeypatch.setitem(figures.PAPER_FIGURES, 8, replace(figures.PAPER_FIGURES[8], draw=stopped))
     code, _, error = call(*command.split(), "--out", tmp_path)
     assert code == 130
     assert f"kept: {tmp_path}/{name}.nc, {tmp_path}/{name}" in error

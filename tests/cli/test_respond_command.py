@@ -62,10 +62,8 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
 @pytest.mark.parametrize(
     ("load_option", "kind", "size"),
     [
-        (("--tip-force", "0.01"), "TipForce", 0.01),
         (("--distributed-force", "0.002"), "DistributedForce", 0.002),
         (("--gravity",), "Gravity", 9.81),
-        (("--gravity", "1.62"), "Gravity", 1.62),
     ],
 )
 def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
@@ -128,7 +126,7 @@ def test_a_twisted_blade_has_lag_flap_and_twist_of_its_tip(call, tmp_path):
     ("polar", "sentence"),
     [
         ("", "The response leaves its plane at 3 of 14 points; the least, a = 0.08758 at 2.74"),
-        (", polar_inertia = 0.0", "in its plane is not known: a twist without inertia"),
+        (", polar_inertia = 0.0", "in its plane is not known: .* a twist without inertia"),
     ],
 )
 def test_a_known_section_tells_whether_the_response_leaves_the_plane(

@@ -1,27 +1,14 @@
 """`rotbeam campbell`, called as a function."""
 
-import csv
-import io
-
 import numpy as np
 import pytest
 
-from analytic import Rectangle, campbell, linear_modes
+from analytic import Rectangle, linear_modes
 from rotbeam_exu import load
 from rotbeam_exu.cli.campbell import campbell as command
 from rotbeam_exu.cli.options import SectionOptions
 
 PLANES = ("lag", "flap", "torsion")
-
-
-def test_csv_holds_the_diagram(beam, capsys):
-    command(omega_max=8.0, points=5, count=2, orders=3, format="csv")
-    rows = list(csv.reader(io.StringIO(capsys.readouterr().out)))
-    expected = campbell(beam, np.linspace(0.0, 8.0, 5), 2, 3)
-    table = np.array(rows[1:6], dtype=float)
-    assert table[:, 0] == pytest.approx(expected.omegas)
-    assert table[:, 1:] == pytest.approx(expected.frequencies, rel=1e-9)
-    assert len(rows) == 6
 
 
 def test_table_shows_frequencies_and_crossings(capsys):
@@ -36,38 +23,36 @@ def test_one_speed_is_no_diagram():
         command(points=1)
 
 
-def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path, capsys):
+def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path):
     (tmp_path / "beam.toml").write_text(
         "[beam]\nlength = 4.0\naxial_stiffness = 5.03e6\n"
         "bending_stiffness = 566.4\nmass_per_length = 0.202\n"
     )
-    command(config=tmp_path / "beam.toml", points=2, count=1, orders=1, format="csv")
-    rows = list(csv.reader(io.StringIO(capsys.readouterr().out)))
+    command(config=tmp_path / "beam.toml", points=2, count=1, orders=1, out=tmp_path)
+    found = load(tmp_path / "campbell-given.nc")
     # Half as long, four times as fast.
-    assert float(rows[2][0]) == pytest.approx(48.0, rel=0.01)
-    assert float(rows[1][1]) == pytest.approx(4.0 * beam.omega_0, rel=1e-3)
+    assert found["omega"][1] == pytest.approx(48.0, rel=0.01)
+    assert found["frequency"][0, 0] == pytest.approx(4.0 * beam.omega_0, rel=1e-3)
 
 
 def test_all_three_families_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
     options = {"omega_max": 12.0, "points": 2, "count": 1, "orders": 6}
     shape = SectionOptions(section="rectangle", ratio=18.5)
-    command(**options, shape=shape, format="csv", out=tmp_path, frequency_max=80.0)
-    printed = capsys.readouterr()
-    rows = list(csv.reader(io.StringIO(printed.out)))
-    assert rows[0] == ["omega [rad/s]", *(f"{p} 1 [rad/s]" for p in ("lag", "flap", "torsion"))]
+    command(**options, shape=shape, out=tmp_path, frequency_max=80.0)
+    printed = capsys.readouterr().out
     blade = beam.blade.with_shape(Rectangle(ratio=18.5))
     frequencies = [linear_modes(blade, 12.0, 1, plane=p).frequencies[0] for p in PLANES]
-    assert np.array(rows[2][1:], dtype=float) == pytest.approx(frequencies, rel=1e-9)
     written = sorted(path.name for path in tmp_path.iterdir())
     ends = ("-crossing_mode.csv", "-frequency.csv", ".nc", ".pdf", ".png")
     assert written == [f"campbell-rectangle-18.5{end}" for end in ends]
-    assert all(name in printed.err for name in written)
+    assert all(name in printed for name in written)
     # Torsion meets 6ω.
     found = load(tmp_path / "campbell-rectangle-18.5.nc")
     (met,) = found["crossing_omega"][found["crossing_mode"] == "torsion 1"].to_numpy()
     there = linear_modes(blade, met, 1, plane="torsion").frequencies[0]
     assert there == pytest.approx(6.0 * met, rel=1e-8)
-    assert found["frequency"].sel(mode="flap 1")[-1] == pytest.approx(frequencies[1], rel=1e-9)
+    for plane, frequency in zip(PLANES, frequencies, strict=True):
+        assert found["frequency"].sel(mode=f"{plane} 1")[-1] == pytest.approx(frequency, rel=1e-9)
     with pytest.raises(FileExistsError, match="--force"):
         command(**options | {"points": 4}, shape=shape, out=tmp_path)
 
@@ -87,9 +72,9 @@ def test_families_are_those_that_the_section_in_a_file_tells(torsion, families, 
         "bending_stiffness = 566.4\nmass_per_length = 0.202\n"
         f"[blade.section.out_of_plane]\nbending_ratio = 0.5\n{torsion}"
     )
-    command(config=tmp_path / "blade.toml", points=2, omega_max=4.0, count=1, format="csv")
-    head = capsys.readouterr().out.splitlines()[0].split(",")[1:]
-    assert head == [f"{plane} 1 [rad/s]" for plane in families]
+    command(config=tmp_path / "blade.toml", points=2, omega_max=4.0, count=1)
+    printed = " ".join(capsys.readouterr().out.split())
+    assert [plane for plane in PLANES if f"{plane} 1" in printed] == list(families)
 
 
 def test_a_blade_set_at_a_right_angle_flaps(tmp_path, capsys):

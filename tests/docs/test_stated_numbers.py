@@ -23,6 +23,7 @@ from analytic import (
     residual_amplitude,
     spin_up_response,
 )
+from analytic.reduced.any_blade import blade_oscillator
 from rotbeam_exu import kicked, natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Cable, Chain
 
@@ -148,6 +149,20 @@ def test_a_designed_ramp_swings_on_the_way_and_knows_its_blade(beam):
     assert left(0.01) == pytest.approx(2.1e-2, rel=0.03)
     assert left(-0.01) == pytest.approx(2.1e-2, rel=0.03)
     assert left(1e-3) == pytest.approx(2e-3, rel=0.1)
+
+
+@pytest.mark.parametrize(("angle", "zero"), [(0.5 * math.pi, 0.900803), (0.0, 3.59302)])
+def test_flap_softens_at_a_lower_speed_than_lag(beam, angle, zero):
+    """Computed by another code, to six digits."""
+    assert says(
+        "theory/blade.md", r"flap softens from $\bar\omega=0.9008$ on, lag only from 3.5930"
+    )
+    unit = beam.with_setting_angle(angle).unit
+    below, above = (
+        blade_oscillator(unit, zero + change, coriolis=True).oscillator.lambda_omega
+        for change in (-5e-6, 5e-6)
+    )
+    assert below < 0.0 < above
 
 
 def test_where_twice_the_flap_frequency_is_that_of_lag():

@@ -117,11 +117,27 @@ def open_page(context):
         yield opened
 
 
-@pytest.fixture(scope="module")
-def page(context, url):
-    """One page for all tests of a module that do no more than move its sliders."""
+@pytest.fixture(scope="session")
+def wide_page(context, url):
     with pages_of(context) as opened:
         yield opened(url)
+
+
+@pytest.fixture
+def page(wide_page):
+    """The page on a wide screen as it opens; tests share it, for a new one costs half a second."""
+    wide_page.mouse.move(5, 5)
+    wide_page.evaluate("scrollTo(0, 0); document.activeElement.blur(); OWN.length = 0; listOwn()")
+    turn_to(wide_page, "")
+    return wide_page
+
+
+def turn_to(page, fragment):
+    """Show what the page opened with this behind # shows."""
+    page.evaluate(
+        "hash => { history.replaceState(null, '', '#' + hash); restore(); drawAll(); }", fragment
+    )
+    settle(page)
 
 
 def settle(page):

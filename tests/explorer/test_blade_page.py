@@ -39,8 +39,7 @@ def test_a_blade_has_a_page_of_its_own(open_page, drawn, beam, tmp_path):
     assert page.evaluate("softening.y(D.exact_lambda_omega[1]) > softening.y1")
 
 
-def test_it_begins_in_the_middle_of_what_there_is(open_page, url, data, tmp_path):
-    page = open_page(url)
+def test_it_begins_in_the_middle_of_what_there_is(open_page, page, data, tmp_path):
     start = "[D.omega[state.w], T(), finiteElements().length]"
     assert page.evaluate(start) == [6.0, 3.0, 2]
     scaled = data.assign_coords({name: 20.0 * data[name] for name in ("omega", "fe_omega")})

@@ -5,6 +5,7 @@ import re
 import pytest
 
 from analytic import periodic_orbits, reduced_model
+from tests.explorer.conftest import turn_to
 
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 
@@ -29,8 +30,7 @@ def test_keyboard(page, at):
     assert {"play", "phase", "INPUT", "BUTTON", "link"} <= reached
 
 
-def test_numbers_under_the_cursor(open_page, url, at, beam):
-    page = open_page(url)
+def test_numbers_under_the_cursor(page, at, beam):
     at(page, 6.0, 0.2)
     box = page.locator("#softening > svg").bounding_box()
     x = page.evaluate("softening.x(4)")
@@ -88,8 +88,8 @@ def test_a_chart_is_a_slider_whose_numbers_are_seen_and_said(page, at, beam):
     assert f"{exact.frequency[0]:.4f} rad/s" in page.locator("#said").text_content()
 
 
-def test_the_spin_up_is_read_without_a_mouse(open_page, url, at, data):
-    page = open_page(f"{url}#T=3")
+def test_the_spin_up_is_read_without_a_mouse(page, at, data):
+    turn_to(page, "T=3")
     at(page, 6.0, 0.3)
     page.locator("#spin-up > svg").focus()
     for key in ("Home", "PageUp", "PageUp", "ArrowRight"):

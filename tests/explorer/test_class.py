@@ -35,8 +35,7 @@ def test_each_link_says_where_it_leads_and_the_sliders_have_it():
         assert min(abs(b - float(a)) for b in AMPLITUDES) < 1e-9
 
 
-def test_the_explorer_opens_there(url, open_page, beam, data):
-    page = open_page(url)
+def test_the_explorer_opens_there(page, beam, data):
     # ω = 3 lies between two speeds of the tests' coarser grid.
     there = [link for link in sorted(set(LINKS)) if float(link[1]) in data["omega"].to_numpy()]
     assert len(there) > 7

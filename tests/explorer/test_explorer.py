@@ -8,6 +8,7 @@ import pytest
 from analytic import VARIANTS, linear_modes, periodic_orbits, reduced_model
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu.explorer import explorer_page
+from tests.explorer.conftest import turn_to
 
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 STATES = [(0.0, 0.05), (4.0, 0.3), (12.0, 0.6)]
@@ -70,8 +71,8 @@ def test_numbers_are_those_of_the_api(page, at, beam):
                 assert found.startswith("+") == (error > 5e-6)
 
 
-def test_curves_lie_where_the_axes_say(open_page, url, at, drawn, beam, data):
-    page = open_page(f"{url}#scale=all")
+def test_curves_lie_where_the_axes_say(page, at, drawn, beam, data):
+    turn_to(page, "scale=all")
     for omega, a in STATES:
         at(page, omega, a)
         amplitudes = data["a"].to_numpy()
@@ -160,8 +161,8 @@ def test_the_beam_is_drawn_to_scale(page, at, beam):
     assert page.locator("#deflection").text_content() == f"q = {q.item():.3f} L"
 
 
-def test_finite_element_points_at_their_speed_only(open_page, url, at, drawn, data):
-    page = open_page(f"{url}#scale=all")
+def test_finite_element_points_at_their_speed_only(page, at, drawn, data):
+    turn_to(page, "scale=all")
     at(page, 6.0, 0.2)
     here = data.sel(fe_omega=6.0)
     circles = "g[clip-path] circle.point"
@@ -221,8 +222,7 @@ def test_what_is_not_found_is_a_gap(open_page, data, tmp_path):
     assert page.locator("#beam circle").is_visible()
 
 
-def test_the_link_keeps_the_state(open_page, url, at):
-    page = open_page(url)
+def test_the_link_keeps_the_state(open_page, page, at):
     at(page, 8.0, 0.45)
     page.get_by_role("button", name="all", exact=True).click()
     page.get_by_role("button", name="/ exact").click()
@@ -251,9 +251,8 @@ def test_a_broken_link_still_opens(open_page, url):
         assert page.locator("#backbone path[data-model=exact]").count() == 1
 
 
-def test_motion_in_real_time_unless_unwanted(open_page, url, beam):
-    still = open_page(url)
-    assert still.locator("#play").inner_text() == "Play"
+def test_motion_in_real_time_unless_unwanted(open_page, url, page, beam):
+    assert page.locator("#play").inner_text() == "Play"
     page = open_page(url, motion=True)
     assert page.locator("#play").inner_text() == "Pause"
     seconds, turned = page.evaluate(

@@ -7,6 +7,7 @@ import pytest
 
 from analytic import SpinUp, periodic_orbits, spin_up_response
 from rotbeam_exu.cli import main
+from tests.explorer.conftest import turn_to
 
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 DROP = """([name, text]) => {
@@ -45,8 +46,7 @@ def marks(page):
     return np.array(places)
 
 
-def test_points_join_the_backbones_in_any_unit(open_page, url, at, beam):
-    page = open_page(url)
+def test_points_join_the_backbones_in_any_unit(page, at, beam):
     at(page, 6.0, 0.2)
     exact = periodic_orbits(beam, 6.0, [0.2, 0.5])
     ours = "a,omega_NL\n" + "".join(
@@ -70,8 +70,8 @@ def test_points_join_the_backbones_in_any_unit(open_page, url, at, beam):
     assert "theirs.csv" in page.locator("#own-list").inner_text()
 
 
-def test_points_of_many_speeds_go_each_to_its_own(open_page, url, at):
-    page = open_page(f"{url}#scale=all")
+def test_points_of_many_speeds_go_each_to_its_own(page, at):
+    turn_to(page, "scale=all")
     rows = "4,0.1,3.3,3.4\n8,0.9,3,4\n8,0.3,3.9,4\n"
     rows = f"omega [rad/s],a [-],omega_NL [rad/s],omega_n [rad/s]\n{rows}"
     page.evaluate(DROP, ["speeds.csv", rows])
@@ -87,8 +87,8 @@ def test_points_of_many_speeds_go_each_to_its_own(open_page, url, at):
     np.testing.assert_allclose(page.evaluate("ownPoints()[1][1]"), 3.9 / linear)
 
 
-def test_histories_lie_on_the_exact_one_in_any_unit(open_page, url, at, drawn, beam):
-    page = open_page(f"{url}#T=3")
+def test_histories_lie_on_the_exact_one_in_any_unit(page, at, drawn, beam):
+    turn_to(page, "T=3")
     at(page, 6.0, 0.2)
     times = np.linspace(0.0, 12.0, 241)
     q = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), times, tolerance=1e-5).q / 8.0
@@ -111,8 +111,8 @@ def test_histories_lie_on_the_exact_one_in_any_unit(open_page, url, at, drawn, b
         page.get_by_role("button", name="Remove mine.csv").click()
 
 
-def test_what_the_page_saves_it_reads(open_page, url, at):
-    page = open_page(f"{url}#T=3&hide=FE.FrM5.FrM.FrC.FrE.FrI.CE.CI.P3.P4.P5")
+def test_what_the_page_saves_it_reads(page, at):
+    turn_to(page, "T=3&hide=FE.FrM5.FrM.FrC.FrE.FrI.CE.CI.P3.P4.P5")
     at(page, 6.0, 0.2)
     files = page.evaluate("['backbone', 'spin-up'].map(id => toCSV(COLUMNS[id](), 'saved'))")
     choose(page, ("backbone.csv", files[0]), ("history.csv", files[1]))
@@ -131,8 +131,7 @@ FrM,0.2,nan,nan,nan,3.72
 """  # noqa: E501
 
 
-def test_what_rotbeam_backbone_prints_is_read(open_page, url, at):
-    page = open_page(url)
+def test_what_rotbeam_backbone_prints_is_read(page, at):
     at(page, 6.0, 0.2)
     choose(page, ("printed.csv", BACKBONE))
     listed = page.locator("#own-list").inner_text()
@@ -152,8 +151,7 @@ def test_the_command_names_its_columns_as_the_page_knows_them(capsys):
     assert capsys.readouterr().out.splitlines()[0] == heading
 
 
-def test_a_history_is_drawn_whole_and_only_once_thinned(open_page, url):
-    page = open_page(url)
+def test_a_history_is_drawn_whole_and_only_once_thinned(page):
     rows = "".join(f"{t / 10:.1f},{2.5 if t == 50 else 0}\n" for t in range(-10, 100001))
     choose(page, ("long.csv", f"t,q/L\n{rows}"))
     assert "; 99860 not within 0 to 15 s" in page.locator("#own-list").inner_text()
@@ -181,8 +179,7 @@ BAD = {
 }  # fmt: skip
 
 
-def test_a_bad_file_gets_one_sentence_also_beside_a_good_one(open_page, url):
-    page = open_page(url)
+def test_a_bad_file_gets_one_sentence_also_beside_a_good_one(page):
     for text, wanted in BAD.items():
         page.evaluate("document.getElementById('refused').textContent = ''")
         choose(page, ("bad.csv", text))

@@ -38,8 +38,7 @@ def table(content):
     }
 
 
-def test_tables_are_the_data(open_page, url, at, beam, data):
-    page = open_page(url)
+def test_tables_are_the_data(page, at, beam, data):
     at(page, 6.0, 0.2)
     name, content = saved(page, "backbone", "CSV")
     assert name == "backbone-omega6-a0.2.csv"
@@ -102,8 +101,7 @@ def test_a_drawing_carries_its_styles_and_stands_alone(open_page, url, dark):
         assert page.evaluate("document.documentElement.className") == ""
 
 
-def test_a_picture_is_three_times_as_sharp(open_page, url):
-    page = open_page(url)
+def test_a_picture_is_three_times_as_sharp(page):
     name, content = saved(page, "backbone", "PNG")
     assert name == "backbone-omega6-a0.3.png"
     assert content[:8] == b"\x89PNG\r\n\x1a\n"
@@ -121,8 +119,7 @@ def test_a_picture_is_three_times_as_sharp(open_page, url):
     assert len(set(zlib.decompress(body))) > 50  # not an empty sheet
 
 
-def test_a_saved_chart_says_what_its_marks_are(open_page, url):
-    page = open_page(url)
+def test_a_saved_chart_says_what_its_marks_are(open_page, page):
     long = "a-run-with-a-name-that-is-longer-than-a-column.csv"
     for name, text in ((long, "t,q\n0,0\n9,1\n"), ("points.csv", "a,omega_NL\n0.1,3.72\n")):
         file = {"name": name, "mimeType": "text/csv", "buffer": text.encode()}
@@ -153,8 +150,7 @@ def test_a_saved_chart_says_what_its_marks_are(open_page, url):
                 assert min(end, end2) <= max(x, x2) or min(low, low2) - max(y, y2) <= 2.0
 
 
-def test_the_menu_opens_by_keyboard_and_closes_again(open_page, url):
-    page = open_page(url)
+def test_the_menu_opens_by_keyboard_and_closes_again(page):
     menu = page.locator("figure:has(#orbit) details")
     menu.locator("summary").focus()
     page.keyboard.press("Enter")

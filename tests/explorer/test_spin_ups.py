@@ -6,6 +6,7 @@ import pytest
 import rotbeam_exu.explorer.data as room
 from analytic import SpinUp, residual_amplitude, spin_up_response
 from rotbeam_exu.explorer import explorer_data
+from tests.explorer.conftest import turn_to
 
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 
@@ -42,8 +43,8 @@ def test_three_answers_to_what_is_left(beam, data):
     assert mesh == pytest.approx(exact.sel(exact_ramp_time=3.0).item(), rel=0.02)
 
 
-def test_the_slider_moves_the_spin_up(open_page, url, drawn, data):
-    page = open_page(f"{url}#omega=6&T=3")
+def test_the_slider_moves_the_spin_up(page, drawn, data):
+    turn_to(page, "omega=6&T=3")
     for t, T in enumerate(data["exact_ramp_time"].to_numpy()):
         chosen(page, t)
         here = data.sel(fe_omega=6.0, exact_ramp_time=T)
@@ -63,8 +64,8 @@ def test_the_slider_moves_the_spin_up(open_page, url, drawn, data):
     assert f"4 finite elements by {mesh:.4f}" in page.locator("#about-spin-up").inner_text()
 
 
-def test_what_is_left_lies_where_the_decades_say(open_page, url, data):
-    page = open_page(f"{url}#omega=6&T=3")
+def test_what_is_left_lies_where_the_decades_say(page, data):
+    turn_to(page, "omega=6&T=3")
     ticks = page.evaluate(
         """[...document.querySelectorAll("#left text[text-anchor=end]")]
             .map(t => [+t.textContent, t.getAttribute("y") - 4]).filter(([v]) => v)"""

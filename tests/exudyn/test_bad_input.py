@@ -5,35 +5,87 @@ import re
 
 import pytest
 
-from analytic import Beam, linear_modes
+from analytic import (
+    Beam,
+    Damping,
+    Gravity,
+    Rectangle,
+    SpeedRipple,
+    TipForce,
+    linear_modes,
+)  # fmt: skip
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu import natural_frequencies, simulate
+from rotbeam_exu import kicked, natural_frequencies, simulate
+
+BEAM = Beam.reference()
+STRIP = BEAM.with_shape(Rectangle())
+ALIKE = BEAM.with_section_out_of_plane(1.0, 0.8)
+
+
+def damped(blade, element, **damping):
+    return {"beam": blade.with_damping(Damping(**damping)), "element": element}
+
+
+def in_space(blade, **options):
+    return {"beam": blade, "element": "space_exact", **options}
 
 
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
         ({"elements": 0}, "elements must be at least 1, got 0"),
+        ({"elements": 1.5}, r"elements must be a whole number, got 1\.5"),
         ({"step": 0.0}, "step must be positive, got 0.0 s"),
         ({"step": math.nan}, "step must be finite, got nan s"),
         ({"step": 7e-4}, r"whole number of steps of 0.0007 s; try a step of 0\.000699986\d+ s"),
         ({"step": 0.1}, r"leaves 16\.8 steps in a period .* 1\.684 s: take 0\.0842 s or less"),
         ({"step": 0.2}, "ramp_time 3 s holds 15 steps of 0.2 s, .* take a step of 0.15 s or less"),
-        ({"step": 0.2, "frame": "rotating"}, "ramp_time 3 s holds 15 steps of 0.2 s"),
         ({"duration": -1.0}, "duration must be positive"),
         ({"duration": 2.0}, "duration 2 s ends before the steady rotation"),
-        ({"element": "cabel"}, "unknown element 'cabel'; known are 'cable', 'exact'"),
+        (
+            {"element": "cabel"},
+            "unknown element 'cabel'; known are 'cable', .*'space_exact'",
+        ),
         ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
+        # Blades that an element does not model.
+        ({"beam": BEAM.with_setting_angle(0.3)}, "the cosine 0.9553: take frame='rotating'"),
+        ({"beam": BEAM.with_point_mass(0.1, 3.3)}, "take a number of elements that puts one"),
+        ({"beam": BEAM.with_hub_radius(1.0), "element": "linear"}, "hub: take 'cable', 'exact' or"),
+        (
+            {"beam": BEAM.with_taper(0.1), "element": "substructures"},
+            "has a variable section: take",
+        ),
+        (damped(BEAM, "ancf3", bending=0.01), "damping: take 'cable' or 'exact', or external"),
+        (damped(BEAM, "ancf3", axial=0.01), "element 'ancf3' has no viscosity"),
+        (damped(ALIKE, "space_cable", axial=0.01), "element 'space_cable' has no viscosity"),
+        (damped(ALIKE, "space_exact", bending=0.01), "take 'cable' or 'exact', or external"),
+        (damped(BEAM, "linear", external=0.01), "has damping: take 'cable', 'exact' or 'ancf3'"),
+        (damped(BEAM, "substructures", bending=0.01), "for the uniform beam .* has damping"),
+        # In space.
+        ({"beam": STRIP, "element": "space_cable"}, "element='space_exact'"),
+        (in_space(STRIP, frame="rotating"), "frame='inertial'"),
+        (in_space(BEAM), r"with_section_out_of_plane\(bending_ratio"),
+        (in_space(STRIP.with_section_out_of_plane(1.0, math.inf)), "element='space_cable'"),
+        (in_space(STRIP.with_tip_mass(0.5)), "point masses"),
+        (in_space(STRIP.with_offsets(mass=(0.01, 0.0))), r"blade.with_offsets\(\)"),
+        (in_space(STRIP.with_twist(0.1), initial_state=kicked(STRIP)), "in its plane"),
+        ({"loads": [Gravity(tilt=1.0)]}, "'cable' stays in the plane of rotation"),
+        # Loads.
+        ({"loads": (TipForce(amplitude=1.0),)}, "the frequency of a tip force of 1 N: give"),
+        ({"loads": (SpeedRipple(amplitude=1.0),)}, "needs the frequency of a ripple"),
+        ({"loads": (SpeedRipple(amplitude=1.0, frequency=0.0),)}, "add the amplitude to omega"),
+        ({"loads": (3.0,)}, "must be a SpeedRipple, TipForce, .*Gravity.*, got 3"),
+        ({"loads": Gravity()}, r"as in loads=\(Gravity\(\),\), got Gravity"),
+        ({"loads": None}, "loads must be several, .* got None"),
+        (
+            {"loads": (TipForce(amplitude=1.0, frequency=400.0),)},
+            r"leaves 15\.7 steps in a period of a load, 0\.01571 s: take 0\.000785 s or less",
+        ),
     ],
 )
-def test_simulate_refuses(beam, spin_up, options, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        simulate(beam, spin_up, **options)
-
-
-def test_half_an_element_is_refused(beam, spin_up):
-    with pytest.raises(TypeError, match=r"elements must be a whole number, got 1\.5"):
-        simulate(beam, spin_up, elements=1.5)
+def test_simulate_refuses(spin_up, options, sentence):
+    with pytest.raises((ValueError, TypeError), match=sentence):
+        simulate(**{"beam": BEAM, "spin_up": spin_up, **options})
 
 
 def test_natural_frequencies_refuse(beam):

@@ -5,10 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Beam, SpinUp, linear_modes
+from analytic import Beam, linear_modes
 from analytic.exact.beam.steady import steady_rotation
-from rotbeam_exu import natural_frequencies, simulate
-from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu import natural_frequencies
 from rotbeam_exu.fem.linearization import Linearization
 
 BEAM = Beam.reference()
@@ -47,34 +46,6 @@ def test_a_hub_and_a_tip_mass_stretch_the_blade_as_they_should(beam):
     # The difference of two lengths: 1e-15 of one of them.
     assert Linearization.of(blade, 6.0, elements=32).stretch == pytest.approx(wanted, abs=1e-12)
     assert wanted > 1.5 * Linearization.of(beam, 6.0).stretch
-
-
-def test_reissners_beam_takes_blades_too(beam):
-    """Shear and rotary inertia move ω by the order of μ times squares of the mode's number."""
-    blade = beam.with_hub_radius(0.8).with_tip_mass(0.5).with_taper(0.1, 0.2)
-    one, other = (
-        natural_frequencies(blade, 6.0, element=element, elements=48, count=2)
-        for element in ("cable", Exact(nodes=3))
-    )
-    assert other == pytest.approx(one, rel=5e-4)
-    run = simulate(
-        blade, SpinUp(omega=3.0, ramp_time=4.0), element="exact", elements=8, duration=6.0,
-        step=4e-3,
-    )  # fmt: skip
-    assert run.attrs["verdict"] == "passed"
-
-
-@pytest.mark.parametrize(
-    ("make", "element", "sentence"),
-    [
-        (lambda b: b.with_hub_radius(1.0), "linear", "a hub: take 'cable', 'exact' or 'ancf3'"),
-        (lambda b: b.with_taper(0.1), "substructures", "has a variable section: take 'cable', 'e"),
-        (lambda b: b.with_point_mass(0.1, 3.3), "cable", "take a number of elements that puts one"),
-    ],
-)
-def test_what_is_not_modeled_is_refused(beam, make, element, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        simulate(make(beam), SpinUp(omega=1.0, ramp_time=3.0), element=element)
 
 
 def test_cantilever_at_rest(beam):

@@ -9,7 +9,6 @@ import time
 from pathlib import Path
 
 import pytest
-from matplotlib.artist import Artist
 
 from rotbeam_exu import load
 
@@ -73,7 +72,7 @@ def test_interrupt_stops_the_solver_and_leaves_nothing(tmp_path, frame):
     )  # fmt: skip
     try:
         # Well into the solver, however busy the machine: to import takes a second at most.
-        while seconds_used_by(job.pid) < 2.0:
+        while seconds_used_by(job.pid) < 1.5:
             assert job.poll() is None
             time.sleep(0.05)
         job.send_signal(signal.SIGINT)
@@ -94,12 +93,3 @@ def test_doctor(call):
     printed = call("doctor")[1]
     assert "figure        drawn" in printed
     assert "spin-up       passed" in printed
-
-
-def test_doctor_notices_a_matplotlib_that_cannot_draw(call, monkeypatch):
-    """As 3.9 was, whose figures have no root."""
-    monkeypatch.setattr(Artist, "get_figure", lambda self: self.figure)
-    code, _, error = call("doctor")
-    assert code == 1
-    assert "cannot draw a figure" in error
-    assert "--upgrade matplotlib" in error

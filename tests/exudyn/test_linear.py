@@ -1,14 +1,12 @@
 """Linear floating frames: one is right below ω0 and divergent above it; a row holds out longer."""
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 
 from analytic import SpinUp, linear_response
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu import SimulationError, figures, natural_frequencies, simulate
+from rotbeam_exu import SimulationError, natural_frequencies, simulate
 from rotbeam_exu.fem.elements import Linear, Substructures, formulation
-from rotbeam_exu.fem.elements.linear_frames import divergence_speeds
 from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.fem.solver import mass_matrix
 
@@ -121,15 +119,6 @@ def test_a_run_above_the_divergence_speed_that_stays_bounded_says_so(beam):
             beam, SpinUp(omega=4.6, ramp_time=6.0), element=Substructures(cells=1), elements=2,
             duration=6.6, step=1.5e-2,
         )  # fmt: skip
-
-
-def test_figure(beam):
-    mpl.use("agg")
-    data = divergence_speeds(beam, [1, 2, 4])
-    axes = figures.divergence_speed(data)
-    assert axes.get_ylabel() == "divergence speed [rad/s]"
-    drawn = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
-    assert drawn["pinned frames"] == pytest.approx(data["divergence_speed"].sel(frame="pinned"))
 
 
 def test_refuses_a_row_of_no_elements(beam):

@@ -1,6 +1,5 @@
 """A load, a motion and an element of one's own: a class each, here, and known everywhere."""
 
-import json
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -27,7 +26,6 @@ from analytic.description import describe, from_description
 from analytic.loads import HarmonicLoad, Load
 from analytic.motion import Motion, Rippled, SpeedChange
 from rotbeam_exu import (
-    comparison,
     dataset_of,
     figures,
     load,
@@ -180,14 +178,6 @@ def test_a_run_and_its_file_say_what_drove_it(beam, tmp_path):
         natural_frequencies(beam, 0.0, element=one, elements=4)[0] for one in (again.model, "cable")
     )
     assert soft == pytest.approx(0.5 * cable, rel=1e-6)
-
-
-def test_a_figures_data_say_what_drove_them():
-    data = comparison.figure_3(
-        spin_up=MOTION, element=SoftCable(share=0.8), meshes=(1,), duration=2.5
-    )
-    assert motion_of(data.attrs) == MOTION
-    assert json.loads(data.attrs["element_options"]) == {"kind": "SoftCable", "share": 0.8}
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,7 @@ def test_a_spin_up_follows_the_exact_blade_in_either_frame(beam, fitted_order):
     steps = np.array([8e-3, 4e-3])
     inertial, rotating = (
         [
-            simulate(blade, spin_up, elements=16, duration=6.0, step=step, frame=frame)
+            simulate(blade, spin_up, elements=16, duration=5.0, step=step, frame=frame)
             for step in steps
         ]
         for frame in ("inertial", "rotating")

@@ -85,16 +85,6 @@ def test_shape_and_loads_of_stations_go_to_the_exact_ones_as_well(refined, along
         assert error[-1] < 6e-4, name
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("frame", "step"), [("rotating", 1e-3), ("inertial", 5e-4)])
-def test_64_cables_have_them_to_1e_4(beam, spin_up, exact, along, frame, step):
-    """Measured 1e-5 and 3e-5 of the largest moment, of the step; at all stations as at the root."""
-    settings = {"duration": 4.0, "step": step, "frame": frame, "stations": STATIONS}
-    run = simulate(beam, spin_up, elements=64, **settings)
-    assert errors(at_root(run), exact).max() < 1e-4
-    assert max(off(run, along).values()) < 1e-4
-
-
 def test_they_go_with_the_square_of_the_step(beam, spin_up, fitted_order):
     """To those of the finest step, one mesh; in the inertial frame, where steps count."""
     steps = [8e-3, 4e-3, 2e-3, 5e-4]
@@ -145,17 +135,10 @@ IN_SPACE = {"bending_ratio": 0.25, "torsion_ratio": 0.2}
     ("element", "frame", "changed"),
     [
         ("cable", "rotating", "driven"), ("cable", "inertial", "driven"),
-        ("cable", "rotating", "set"), ("exact", "rotating", "thick"), ("exact", "inertial", "hub"),
-        ("ancf3", "inertial", "hub"),
+        ("cable", "rotating", "set"), ("cable", "inertial", "bodies"),
+        ("exact", "rotating", "thick"), ("exact", "inertial", "hub"),
+        ("ancf3", "inertial", "hub"), ("space_cable", "rotating", "round"),
         ("space_exact", "inertial", "twisted"),
-        *(
-            pytest.param(element, frame, changed, marks=pytest.mark.slow)
-            for element, frame, changed in (
-                ("cable", "inertial", "bodies"), ("exact", "rotating", "bodies"),
-                ("ancf3", "rotating", "hub"), ("linear", "inertial", "bare"),
-                ("substructures", "rotating", "bare"), ("space_cable", "rotating", "round"),
-            )
-        ),
     ],
 )  # fmt: skip
 def test_the_station_at_the_root_has_the_forces_of_the_constraints(beam, element, frame, changed):
@@ -166,7 +149,6 @@ def test_the_station_at_the_root_has_the_forces_of_the_constraints(beam, element
     """
     hub = beam.with_hub_radius(0.5)
     blade = {
-        "bare": beam,
         "hub": hub,
         "driven": hub.with_damping(Damping(bending=0.02, external=0.05)),
         "set": hub.with_setting_angle(0.8),

@@ -10,8 +10,9 @@ import xarray as xr
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from analytic import Beam, SpinUp
 from rotbeam_exu import load, save, simulate
+from rotbeam_exu.fem.case import RunCase
+from rotbeam_exu.fem.simulation import run_case
 from rotbeam_exu.files.results import differing_inputs, save_tables, whole_file, writable_folder
 
 
@@ -26,21 +27,19 @@ def test_a_saved_run_loads_equal(run, tmp_path):
 
 def test_a_loaded_run_can_be_done_again_to_the_bit(run, tmp_path):
     attrs = load(save(run, tmp_path / "run.nc")).attrs
-    beam = Beam(
-        **{k.removeprefix("beam_"): float(v) for k, v in attrs.items() if k.startswith("beam_")}
-    )
-    again = simulate(
-        beam,
-        SpinUp(omega=float(attrs["omega"]), ramp_time=float(attrs["ramp_time"])),
-        element=attrs["element"],
-        elements=int(attrs["elements"]),
-        duration=float(attrs["duration"]),
-        step=float(attrs["step"]),
-        frame=attrs["frame"],
-    )
-    xr.testing.assert_equal(again, run)
+    xr.testing.assert_equal(run_case(RunCase.described(attrs)), run)
     assert json.loads(attrs["versions"])["exudyn"]
     assert json.loads(attrs["settings"])["spectral_radius"] == 0.9
+
+
+@pytest.mark.parametrize("name", ["time", "q"])
+def test_a_changed_bit_of_a_number_is_refused(run, tmp_path, name):
+    path = save(run, tmp_path / "run.nc")
+    raw = bytearray(path.read_bytes())
+    raw[raw.index(run[name].to_numpy()[10:20].tobytes()) + 3] ^= 1
+    path.write_bytes(raw)
+    with pytest.raises(ValueError, match="write it again"):
+        load(path)
 
 
 def test_every_variable_has_unit_and_name(run):
@@ -154,7 +153,9 @@ def test_a_table_has_a_row_for_each_point_of_the_grid(tmp_path):
     )
     for dims in (["y", "x"], ["x", "y"]):
         given = data.transpose(*dims)
-        table = pd.read_csv(save(given, tmp_path / "x.csv"), comment="#", parse_dates=["day"])
+        path = save(given, tmp_path / "x.csv")
+        assert ",nan," in path.read_text(encoding="utf-8"), "no text in quotes"
+        table = pd.read_csv(path, comment="#", parse_dates=["day"])
         # By the other library's own way.
         wanted = given.to_dataframe(dim_order=list(given.sizes)).reset_index()
         pd.testing.assert_frame_equal(
@@ -169,7 +170,7 @@ def test_seconds_are_no_time_deltas(tmp_path):
 
 
 def test_fill_values_of_another_file_are_not_taken_over(tmp_path):
-    data = xr.Dataset({"v": ("x", [1.0, np.nan, -1.0])})
+    data = xr.Dataset({"v": ("x", [1.0, np.nan, -0.5])})
     data["v"].encoding = {"_FillValue": -1.0, "dtype": "int16", "scale_factor": 0.5}
     xr.testing.assert_identical(load(save(data, tmp_path / "x.nc")), data)
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -89,54 +88,49 @@ def family_of(
         columns.append(_followed(assurance))
         assurances.append(assurance[np.arange(count), columns[-1]])
 
-    def tracked(omega: float, row: int) -> FloatArray:
-        near = min(found[row : row + 2], key=lambda modes: abs(modes.omega - omega))
-        modes = modes_at(omega, near)
-        return modes.frequencies[_followed(_assurance(found[row], modes)[columns[row]])]
-
     frequencies = np.array([m.frequencies[c] for m, c in zip(found, columns, strict=True)])
-    crossings = _met(speeds, frequencies, orders, tracked)
+    crossings = [
+        crossing
+        for pair, places in zip(pairwise(found), pairwise(columns), strict=True)
+        for crossing in _met(pair, places, orders, modes_at)
+    ]
     return Family(frequencies, np.array(assurances).reshape(-1, count), crossings)
 
 
 def _met(
-    speeds: FloatArray,
-    frequencies: FloatArray,
+    ends: tuple[LinearModes, LinearModes],
+    columns: tuple[NDArray[np.intp], NDArray[np.intp]],
     orders: int,
-    tracked: Callable[..., FloatArray],
-) -> list[Crossing]:
-    """Return where the columns cross kω; what finds it depends on the speed before."""
-    crossings = []
-    for row, ends in enumerate(pairwise(speeds.tolist())):
-        known = dict(zip(ends, frequencies[row : row + 2], strict=True))
-        for column in range(frequencies.shape[1]):
-            for order in range(1, orders + 1):
-                before, after = (known[end][column] - order * end for end in ends)
-                if before > 0.0 >= after or before < 0.0 <= after:
-                    square = optimize.toms748(
-                        _detuning, ends[0] ** 2, ends[1] ** 2,
-                        args=(known, partial(tracked, row=row), column, order),
-                        xtol=1e-13 * ends[1] ** 2, rtol=1e-13,
-                    )  # fmt: skip
-                    omega = math.sqrt(square)
-                    crossings.append(
-                        Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
-                    )
-    return crossings
+    modes_at: Callable[..., LinearModes],
+) -> Iterator[Crossing]:
+    """Yield where frequencies cross kω between two speeds, of the modes that hold these places.
 
+    In ascending order frequencies are continuous. A mode followed by its shape changes its place
+    at once where two of them veer, and passes a line in between without being there.
+    """
+    known = {modes.omega: modes for modes in ends}
 
-def _detuning(
-    square: float,
-    known: dict[float, FloatArray],
-    tracked: Callable[[float], FloatArray],
-    column: int,
-    order: int,
-) -> float:
-    """Return ω_n² - (kω)² of a column at ω²: squares of frequencies are nearly straight over it."""
-    omega = math.sqrt(square)
-    if omega not in known:
-        known[omega] = tracked(omega)
-    return float(known[omega][column] ** 2 - order**2 * square)
+    def at(square: float) -> LinearModes:
+        omega = math.sqrt(square)
+        if omega not in known:
+            known[omega] = modes_at(omega, min(ends, key=lambda modes: abs(modes.omega - omega)))
+        return known[omega]
+
+    def detuning(square: float, place: int, order: int) -> float:
+        # Squares of frequencies are nearly straight over that of the speed.
+        return float(at(square).frequencies[place] ** 2 - order**2 * square)
+
+    for place, order in product(np.union1d(*columns).tolist(), range(1, orders + 1)):
+        before, after = (modes.frequencies[place] - order * modes.omega for modes in ends)
+        if before > 0.0 >= after or before < 0.0 <= after:
+            low, high = (modes.omega**2 for modes in ends)
+            square = optimize.toms748(
+                detuning, low, high, args=(place, order), xtol=1e-13 * high, rtol=1e-13
+            )
+            held = _followed(_assurance(ends[0], at(square))[columns[0]])
+            for column in np.flatnonzero(held == place).tolist():
+                omega = math.sqrt(square)
+                yield Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
 
 
 def _followed(assurance: FloatArray) -> NDArray[np.intp]:

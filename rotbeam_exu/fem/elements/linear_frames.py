@@ -10,7 +10,6 @@ is the angle of the tangent at the first node, or of the chord from the first to
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -22,7 +21,6 @@ from analytic.beam import require_planar
 from analytic.input_checks import whole_number
 from analytic.lazily import linalg, optimize
 
-from ...lazily import xr
 from ..lazily import exudyn
 from ..mesh import HERMITE, scales
 from .energy_body import Assembly, add_energy_body
@@ -89,7 +87,6 @@ class Linear(_LinearFrames):
     """
 
     name: ClassVar[str] = "linear"
-    summary: ClassVar[str] = "one linear floating frame, clamped to the root; diverges above ω0"
     order = 4.0
 
     def row(self, beam: Beam, elements: int) -> FrameRow:
@@ -99,7 +96,7 @@ class Linear(_LinearFrames):
 
 @dataclass(frozen=True, kw_only=True)
 class Substructures(_LinearFrames):
-    """`elements` linear floating frames in a row (Valverde and García-Vallejo, 2009).
+    """Linear floating frames in a row, as many as `elements` (Valverde and García-Vallejo, 2009).
 
     Rotations between the frames bring the nonlinearity in piece by piece: each number of frames
     has its divergence speed, and the more frames, the higher.
@@ -127,7 +124,6 @@ class Substructures(_LinearFrames):
     cells: int = 2
 
     name: ClassVar[str] = "substructures"
-    summary: ClassVar[str] = "linear floating frames in a row; each number has a divergence speed"
     order = 2.0
 
     def __post_init__(self) -> None:
@@ -141,30 +137,6 @@ class Substructures(_LinearFrames):
 
     def _elements(self, nodes: int) -> int:
         return (nodes - 1) // self.cells
-
-
-def divergence_speeds(beam: Beam, counts: Sequence[int]) -> xr.Dataset:
-    """Return the divergence speed [rad/s] of both frames over numbers of substructures.
-
-    Returns
-    -------
-    Dataset
-        `divergence_speed` over `frame` and `substructures`; attribute omega_0: the beam's [rad/s].
-    """
-    frames: tuple[FloatingFrame, ...] = ("tangent", "pinned")
-    models = [Substructures(frame=frame) for frame in frames]
-    values = [[model.divergence_speed(beam, n) for n in counts] for model in models]
-    attrs = {"units": "rad/s", "long_name": "divergence speed"}
-    return xr.Dataset(
-        {"divergence_speed": (("frame", "substructures"), values, attrs)},
-        coords={
-            "frame": list(frames),
-            "substructures": (
-                "substructures", list(counts), {"long_name": "number of substructures"}
-            ),
-        },
-        attrs={"omega_0": beam.omega_0, "cells": models[0].cells},
-    )  # fmt: skip
 
 
 class FrameRow:
