@@ -12,7 +12,7 @@ import numpy as np
 from analytic import Beam
 from rotbeam_exu.verification.cases import CASES, VERSION, Case
 from rotbeam_exu.verification.judgement import THRESHOLDS
-from rotbeam_exu.verification.kit import COLUMNS, STATIC, row_of
+from rotbeam_exu.verification.kit import STATIC, row_of
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission_files.runs import FARTHEST
 from rotbeam_exu.verification.submission_files.tables import DIGITS
@@ -20,6 +20,17 @@ from rotbeam_exu.verification.submission_files.tables import DIGITS
 SOURCE, PDF = Path(__file__).with_name("problem.typ"), STATIC / "PROBLEM.pdf"
 DIGEST = Path(__file__).with_name("PROBLEM.sha256")
 """SHA-256 of the source and the numbers that the PDF was made from."""
+
+BESIDES = {
+    "twist": "twist $theta = {}$",
+    "precone": "precone $beta = {}$",
+    "tip_mass": "mass at the tip {} kg",
+    "bending_damping": "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s",
+    "gravity": "gravity $g = {}$ m/s²",
+    "gravity_tilt": "along $-bold(b)_3$",
+    "kick": "kick $v = {}$ m/s",
+}
+"""Words in the problem's table, in Typst's markup, on numbers of cases.csv that few cases have."""
 
 
 def problem_numbers() -> str:
@@ -62,8 +73,7 @@ def _besides(case: Case) -> list[str]:
     row = row_of(case)
     listed = {"$omega$: {} rad/s": case.speeds, "$a$: {}": case.amplitudes}
     said = [text.format(", ".join(f"{x:g}" for x in of)) for text, of in listed.items() if of]
-    told = {one.name: one for one in COLUMNS.values() if one.besides and row[one.name]}
-    said += [one.besides.format(f"{row[name]:.8g}") for name, one in told.items()]
+    said += [text.format(f"{row[name]:.8g}") for name, text in BESIDES.items() if row[name]]
     return [*said, "starts on an orbit"] if case.motion and not case.is_spun_up else said
 
 

@@ -1,8 +1,9 @@
 """Stability of a periodic orbit: its Floquet multipliers.
 
-The equations of motion, linearized about the orbit, are integrated over one period by Gauss's
-method, which damps nothing. Modes too fast for its steps are left out by their shape, for they come
-out on the unit circle at a wrong place, where they may meet others that they never meet. All this
+The equations of motion, linearized about the orbit, are integrated over one period: about a free
+orbit by Gauss's method, which damps nothing. Modes too fast for its steps are left out by their
+shape, for they come out on the unit circle at a wrong place, where they may meet others that they
+never meet. About a driven orbit, and of a stiff system, Radau's method damps them away. All this
 depends on the orbit's `frequency`, `tangent` and `constants` (see `Orbit`).
 """
 
@@ -15,27 +16,26 @@ import numpy as np
 from ..arrays import ComplexArray, FloatArray
 from ..lazily import linalg
 from ..threads import one_thread
-from .collocation import gauss
+from .collocation import Collocation, gauss, radau
 from .system import Tangent
 
-_STAGES = 6
 _REPORTED = 4  # modes
 _COVERED = 6
-_FEWEST_STEPS = 24
+_FEWEST_POINTS = 144  # of all steps
 _MASSLESS = 1e-12  # energy of a shape of unit length, over the lowest frequency squared
+_DAMPED_AWAY = 1e-6  # multiplier by Radau's method, below which its motion is not told apart
 _LARGE = 1e60  # size of a monodromy that is kept apart, before it overflows
 _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
 
 
 class Multipliers(NamedTuple):
-    """Multipliers (2 modes,), the lowest modes first; the first two of a free orbit are 1."""
+    """Multipliers (2 modes,), the lowest modes first; the first two of a free orbit are 1.
+
+    The largest in size is one of them, or of all where the method damps the others.
+    """
 
     values: ComplexArray
-
-    @property
-    def modes(self) -> int:
-        """Number of modes that are covered."""
-        return self.values.size // 2
+    largest: float
 
     @property
     def lowest(self) -> ComplexArray:
@@ -44,7 +44,7 @@ class Multipliers(NamedTuple):
 
     def stable(self, tolerance: float = 1e-6) -> bool:
         """Return whether none lies outside the unit circle."""
-        return bool(np.all(np.abs(self.values) < 1.0 + tolerance))
+        return self.largest < 1.0 + tolerance
 
 
 @one_thread
@@ -55,10 +55,12 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     shapes, frequencies = normal_modes(K, M)
     covered = min(modes, frequencies.size)
     phase = frequencies[covered - 1] * 2.0 * np.pi / orbit.frequency
-    constants, steps = orbit.constants(), max(_FEWEST_STEPS, int(np.ceil(phase / _RESOLVED)))
-    odd, n = orbit.system.odd, K.shape[0]
-    if constants is None or odd is None:
-        scaled, exponent = flow(orbit, steps)
+    constants, odd, n = orbit.constants(), orbit.system.odd, K.shape[0]
+    stiff = constants is None or orbit.system.stiff
+    method = radau(8) if stiff else gauss(6)
+    steps = max(_FEWEST_POINTS // method.nodes.size, int(np.ceil(phase / _RESOLVED)))
+    if stiff or odd is None:
+        scaled, exponent = flow(orbit, steps, method=method)
         matrix = scaled * np.exp(exponent)
     else:
         # Reversed in time the other half undoes what the first does.
@@ -84,6 +86,8 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     energy = np.abs(motion[: frequencies.size]) ** 2 + np.abs(motion[frequencies.size :]) ** 2
     # Coordinates without mass, such as a constraint's, carry none: they come last.
     none = energy.sum(axis=0) < _MASSLESS * frequencies[0] ** 2
+    if stiff:
+        none |= np.abs(values) < _DAMPED_AWAY
     energy[:, none] = np.eye(1, len(energy), len(energy) - 1).T
     energy /= energy.sum(axis=0)
     kept = 2 * covered - (0 if constants is None else 2)
@@ -91,7 +95,8 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     place = np.minimum(np.arange(frequencies.size), covered) @ energy
     order = np.argsort(place)[:kept]
     trivial = np.ones(0 if constants is None else 2)
-    return Multipliers(np.concatenate((trivial, values[order])).astype(np.complex128))
+    found = np.concatenate((trivial, values[order])).astype(np.complex128)
+    return Multipliers(found, float(np.abs(values if constants is None else found).max()))
 
 
 def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:
@@ -116,24 +121,27 @@ def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[Flo
     return whole, 2.0 * exponent
 
 
-def flow(orbit: Any, steps: int, share: float = 1.0) -> tuple[FloatArray, float]:
+def flow(
+    orbit: Any, steps: int, share: float = 1.0, method: Collocation | None = None
+) -> tuple[FloatArray, float]:
     """Return the map of a small change of (q, q̇) at φ = 0 over a share of a period, (2n, 2n).
 
     Over its size, where that is beyond 1e60, and with the size's logarithm.
     """
-    method = gauss(_STAGES)
+    method = method or gauss(6)
+    stages = method.nodes.size
     nodes = (np.arange(steps)[:, None] + method.nodes) / steps
     tangents = orbit.tangent(2.0 * np.pi * share * nodes.ravel())
     n = tangents.residual.shape[-1]
     h = 2.0 * np.pi * share / orbit.frequency / steps
     position, velocity, exponent = np.eye(n, 2 * n), np.eye(n, 2 * n, k=n), 0.0
     for step in range(steps):
-        at = Tangent(*(part[step * _STAGES : (step + 1) * _STAGES] for part in tangents))
+        at = Tangent(*(part[step * stages : (step + 1) * stages] for part in tangents))
         drifted = position + h * method.nodes[:, None, None] * velocity
         load = at.damping @ velocity + at.stiffness @ drifted
         acceleration = -linalg.solve(
             method.matrix(h, at), load.reshape(-1, 2 * n), check_finite=False
-        ).reshape(_STAGES, n, 2 * n)
+        ).reshape(stages, n, 2 * n)
         position = (
             position + h * velocity + h**2 * np.tensordot(method.last_position, acceleration, 1)
         )

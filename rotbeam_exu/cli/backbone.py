@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -152,9 +151,7 @@ def _frequencies(
 def _each(
     frequency: Callable[[Any], Any], amplitude: list[float], name: str, refused: list[Refusal]
 ) -> list[float]:
-    """Return the frequency at each amplitude, NaN where there is none; together if they can be."""
-    with suppress(ValueError):
-        return [float(one) for one in frequency(amplitude)]
+    """Return the frequency at each amplitude, NaN where there is none."""
     found = [math.nan] * len(amplitude)
     for i, a in enumerate(amplitude):
         try:

@@ -13,7 +13,7 @@ from ..report.page import report_page
 from ..verification.cases import CASES, VERSION
 from ..verification.judgement import judged
 from ..verification.mistakes import mistakes_in
-from ..verification.mistakes.mistake import Mistake
+from ..verification.mistakes.histories import Mistake
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable

@@ -39,8 +39,6 @@ def whole(_: Any, tokens: Sequence[Token]) -> int:
 Whole = Annotated[int, Parameter(converter=whole)]
 """A whole number."""
 
-_OF_FILE = "given"
-
 Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
 
@@ -181,10 +179,7 @@ def _shapes() -> dict[str, Any]:
     return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
 
 
-_Section: Any = Annotated[
-    Literal[(*_shapes(), _OF_FILE)],
-    Parameter(help=f"The section out of the plane; {_OF_FILE} is that of the file."),
-]
+_Section: Any = Literal[tuple(_shapes())] | None
 
 
 @Parameter(name="*")
@@ -194,37 +189,31 @@ class SectionOptions:
 
     Parameters
     ----------
+    section
+        The section out of the plane; by default that of the file.
     ratio
         Height in the plane over width, of a rectangle or an ellipse whose material and size follow
         the beam's EA, EI and mass; by default from the beam's A and I.
-    poisson_ratio
-        Poisson's ratio, for the torsional stiffness.
     """
 
-    section: _Section = _OF_FILE
+    section: _Section = None
     ratio: float | None = None
-    poisson_ratio: float = 0.3
 
     @property
     def name(self) -> str:
         """The shape as part of a file's name."""
-        return self.section if self.ratio is None else f"{self.section}-{self.ratio:g}"
+        shape = self.section or "given"
+        return shape if self.ratio is None else f"{shape}-{self.ratio:g}"
 
     def of(self, beam: AnyBlade) -> AnyBlade:
         """Return the beam with the section asked for, by default its own."""
         kind = _shapes().get(self.section)
-        sides = kind is not None and "ratio" in (field.name for field in fields(kind))
-        if self.ratio is not None and not sides:
-            raise ValueError(
-                f"--ratio is height over width, and --section {self.section} has none: leave it out"
-            )
-        if kind is None:
-            return beam
         if self.ratio is None:
-            return beam.with_shape(kind(poisson_ratio=self.poisson_ratio))
+            return beam if kind is None else beam.with_shape(kind())
+        if kind is None or "ratio" not in (field.name for field in fields(kind)):
+            raise ValueError("--ratio is height over width: give it with a --section that has both")
         # With another material than the beam's, of which the blade knows none.
-        shape = kind(ratio=self.ratio, poisson_ratio=self.poisson_ratio)
-        return beam.blade.with_shape(shape)
+        return beam.blade.with_shape(kind(ratio=self.ratio))
 
     def required_of(self, beam: AnyBlade) -> AnyBlade:
         """Return the same; refuse a beam whose section out of the plane is unknown."""

@@ -14,7 +14,7 @@ from analytic.arrays import ComplexArray, FloatArray
 from analytic.beam import require_blade, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 from analytic.loads import Load
-from analytic.methods.gyroscopic import inverse_eigenvalues
+from analytic.methods.system import inverse_eigenvalues
 
 from ..runs.check import SimulationError, require_stretch, warn_if_coarse
 from .columns import twist

@@ -15,7 +15,7 @@ import numpy as np
 from ..verification.cases import CASES, VERSION
 from ..verification.convergence import Order
 from ..verification.judgement import Judgement
-from ..verification.mistakes.mistake import Mistake
+from ..verification.mistakes.histories import Mistake
 from ..verification.outcomes import Finding
 from ..verification.submission import Run, Submission
 from ..verification.submission_files.faults import Fault
@@ -24,10 +24,10 @@ SCHEMA = "rotbeam judgement 2"
 """Its number grows where a key goes, or means something else."""
 
 
-def _versions() -> dict[str, str]:
-    names = ("numpy", "scipy")
+def versions() -> dict[str, str]:
+    """Return the versions of what judges, by name."""
     own = {"rotbeam_exu": version("rotbeam-exu"), "python": platform.python_version()}
-    return {**own, **{name: version(name) for name in names}}
+    return own | {name: version(name) for name in ("numpy", "scipy")}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -46,8 +46,6 @@ class Record:
         Of files that are not judged.
     date : datetime
         Of the judgement.
-    versions : mapping
-        Of what judged, by name.
     """
 
     submission: Submission
@@ -56,7 +54,6 @@ class Record:
     digests: Mapping[str, str] = dataclasses.field(default_factory=dict)
     faults: tuple[Fault, ...] = ()
     date: datetime = dataclasses.field(default_factory=lambda: datetime.now(UTC))
-    versions: Mapping[str, str] = dataclasses.field(default_factory=_versions)
 
     @property
     def name(self) -> str:
@@ -73,7 +70,7 @@ def document(record: Record) -> dict[str, Any]:
             "benchmark": VERSION,
             "self_judged": True,
             "date": record.date.isoformat(timespec="seconds"),
-            "versions": dict(record.versions),
+            "versions": versions(),
             "declaration": dataclasses.asdict(found.declaration),
             "outcome": found.outcome,
             "passed": found.passed,

@@ -19,7 +19,7 @@ from ..verification.convergence import Order
 from ..verification.judgement import THRESHOLDS
 from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run
-from .document import Record, document
+from .document import Record, document, versions
 
 TITLE = "rotbeam judgement"
 """Beginning of each page's title, by which a page is known."""
@@ -67,6 +67,7 @@ def report_page(record: Record) -> str:
     return environment.from_string(template).render(
         title=f"{TITLE}: {record.name}",
         record=record,
+        versions=versions(),
         found=found,
         stated=stated,
         orders=", ".join(f"{order:g} in {part}" for order, part in orders if order),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
@@ -143,7 +143,7 @@ class Case:
     @property
     def ramp_time(self) -> float:
         """Time in which it is spun up [s]; 0 of a steady rotation."""
-        return float(stated(self.rotation).get("ramp_time", 0.0))
+        return self.rotation.ramp_time
 
     @cached_property
     def orbit(self) -> Orbits:
@@ -169,21 +169,6 @@ _QUANTITIES = {
     Asked.STEADY: "steady deflection",
     Asked.BACKBONE: "backbone",
 }
-
-
-def stated(value: Any) -> dict[str, Any]:
-    """Return the fields of a value by name, without fields that are empty by default.
-
-    A blade that learns to have more then states the same as before.
-    """
-    parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
-    return {name: part for name, part, default in parts if part != default or not _is_nothing(part)}
-
-
-def _is_nothing(part: Any) -> bool:
-    if isinstance(part, tuple):
-        return all(map(_is_nothing, part))
-    return not (stated(part) if is_dataclass(part) else part)
 
 
 def spin_up_case(

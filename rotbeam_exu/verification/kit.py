@@ -8,18 +8,18 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, is_dataclass
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from analytic import Gravity
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_array
 
-from .cases import CASES, VERSION, Asked, Case, stated
+from .cases import CASES, VERSION, Asked, Case
 from .judgement import THRESHOLDS
 from .references import reference
 from .submission_files.runs import FARTHEST
@@ -87,10 +87,9 @@ def kit_files() -> dict[str, bytes]:
 
 
 def _cases_json() -> str:
-    units = {one.name: one.unit for one in COLUMNS.values()}
     document = {
         "benchmark": VERSION,
-        "units": units | {"duration": "s", "speeds": "rad/s", "amplitudes": "1"},
+        "units": UNITS,
         "cases": [row_of(case) | {"title": case.title} for case in CASES.values()],
         "thresholds": THRESHOLDS,
         "samples": {"largest distance [s]": FARTHEST, "significant digits": DIGITS},
@@ -149,96 +148,45 @@ def _table(said: str, columns: dict[str, FloatArray]) -> str:
     return "\n".join([f"# {said}", ",".join(columns), *lines, ""])
 
 
-@dataclass(frozen=True)
-class CaseColumn:
-    """A column of cases.csv: its name, its unit, and the cell of a case that has none.
-
-    PROBLEM.pdf tells it below "besides", where it has such words; {} is the number.
-    """
-
-    name: str
-    unit: str
-    nothing: float | None = None
-    besides: str = ""
-
-
-_TIP_MASS = CaseColumn("tip_mass", "kg", 0.0, "mass at the tip {} kg")
-_ETA = "moment $E I (phi' + eta dot(phi)')$,\\ $eta = {}$ s"
-_LEVEL = "along $-bold(b)_3$"
-_OMEGA = CaseColumn("omega", "rad/s")
-_PITCH = "twist $theta = {}$"
-COLUMNS = {
-    "length": CaseColumn("L", "m"),
-    "section.axial_stiffness": CaseColumn("EA", "N"),
-    "section.bending_stiffness": CaseColumn("EI", "N m^2"),
-    "section.mass_per_length": CaseColumn("rhoA", "kg/m"),
-    "section.out_of_plane.bending_ratio": CaseColumn("EI_flap/EI", "1"),
-    "section.out_of_plane.torsion_ratio": CaseColumn("GJ/EI", "1"),
-    "line.twist.in proportion": CaseColumn("twist", "rad", 0.0, _PITCH),
-    "line.precone": CaseColumn("precone", "rad", 0.0, "precone $beta = {}$"),
-    "hub_radius": CaseColumn("hub_radius", "m", 0.0),
-    "point_masses.PointMass.mass": _TIP_MASS,
-    "point_masses.PointMass.position": CaseColumn("L", "m"),
-    "damping.bending": CaseColumn("bending_damping", "s", 0.0, _ETA),
-    "loads.Gravity.gravity": CaseColumn("gravity", "m/s^2", 0.0, "gravity $g = {}$ m/s²"),
-    "loads.Gravity.tilt": CaseColumn("gravity_tilt", "rad", 0.0, _LEVEL),
-    "kick": CaseColumn("kick", "m/s", 0.0, "kick $v = {}$ m/s"),
-    "motion.SpinUp.omega": _OMEGA,
-    "motion.SteadyRotation.omega": _OMEGA,
-    "motion.SpinUp.ramp_time": CaseColumn("T", "s"),
-}
-"""Columns by the part of blade, motion or loads that they tell; a part without one is refused."""
+UNITS = {
+    "L": "m", "EA": "N", "EI": "N m^2", "rhoA": "kg/m", "EI_flap/EI": "1", "GJ/EI": "1",
+    "twist": "rad", "precone": "rad", "hub_radius": "m", "tip_mass": "kg", "bending_damping": "s",
+    "gravity": "m/s^2", "gravity_tilt": "rad", "kick": "m/s", "omega": "rad/s", "T": "s",
+    "duration": "s", "speeds": "rad/s", "amplitudes": "1",
+}  # fmt: skip
+"""Units of the numbers in cases.csv, by the names of the columns."""
 
 
 def row_of(case: Case) -> dict[str, Any]:
-    """Return the data of a case by the names in cases.csv; None stands for missing data.
-
-    Raises
-    ------
-    ValueError
-        If the case has what no column says.
-    """
-    told, lost = dict[str, float](), []
-    for part, value in sorted(_parts_of(case)):
-        name = COLUMNS[part].name if part in COLUMNS else ""
-        if not (name and isinstance(value, float)) or told.setdefault(name, value) != value:
-            lost.append(part)
-    if lost:
-        raise ValueError(
-            f"cases.csv has no column for {', '.join(lost)} of case {case.name}: add it to "
-            "COLUMNS, or leave it out of the case"
-        )
+    """Return the data of a case by the names in cases.csv; None stands for missing data."""
+    blade, motion = case.blade.blade, case.motion
+    section, out_of_plane = blade.section, blade.section.out_of_plane
+    gravity: Any = case.loads[0] if case.loads else Gravity(0.0)
     return {
         "id": case.name,
         "level": str(case.level),
         "asked": case.asked.name.lower(),
-        **{one.name: told.get(one.name, one.nothing) for one in COLUMNS.values()},
+        "L": blade.length,
+        "EA": section.axial_stiffness,
+        "EI": section.bending_stiffness,
+        "rhoA": section.mass_per_length,
+        "EI_flap/EI": out_of_plane.bending_ratio if out_of_plane else None,
+        "GJ/EI": out_of_plane.torsion_ratio if out_of_plane else None,
+        "twist": float(np.max(blade.line.twist)),  # which grows from 0 at the clamp
+        "precone": blade.line.precone,
+        "hub_radius": blade.hub_radius,
+        "tip_mass": blade.point_masses[0].mass if blade.point_masses else 0.0,
+        "bending_damping": blade.damping.bending,
+        "gravity": gravity.gravity,
+        "gravity_tilt": gravity.tilt,
+        "kick": case.kick,
+        "omega": motion.omega if motion else None,
+        "T": case.ramp_time or None if motion else None,
         "duration": case.duration or None,
         "speeds": list(case.speeds),
         "count": case.count if case.asked is Asked.FREQUENCIES else None,
         "amplitudes": list(case.amplitudes),
     }
-
-
-def _parts_of(case: Case) -> Iterator[tuple[str, Any]]:
-    """Yield what blade, motion and loads state, by the names of where it stands."""
-    yield from _parts("", case.blade.blade)
-    yield from _parts("motion.", (case.motion,) if case.motion else ())
-    yield from _parts("loads.", case.loads)
-    yield from _parts("kick", case.kick) if case.kick else ()
-
-
-def _parts(path: str, value: Any) -> Iterator[tuple[str, Any]]:
-    if isinstance(value, tuple) and len(value) == 1:
-        (value,) = value
-        path += f"{type(value).__name__}."
-    elif isinstance(value, tuple) and len(value) == 2 and value[0] == 0.0:
-        value, path = value[1], f"{path}in proportion."  # a profile that grows with x
-    if is_dataclass(value):
-        for name, part in stated(value).items():
-            yield from _parts(f"{path}{name}.", part)
-    elif value != ():
-        yield path.rstrip("."), value
 
 
 def cases_csv() -> str:

@@ -46,8 +46,7 @@ class Reference:
     bound: float
     source: str
     _history: interpolate.BSpline | None = field(default=None, repr=False)
-    # Orbits take a second each, and the search for mistakes asks for the same ones again.
-    _known: dict[tuple[float, float], float] = field(default_factory=dict, repr=False)
+    # The search for mistakes asks for the same ones again.
     _rows: dict[float, FloatArray] = field(default_factory=dict, repr=False)
 
     def history(self, times: ArrayLike, derivative: int = 0) -> FloatArray:
@@ -124,18 +123,14 @@ class Reference:
         """
         speed = self.case.rotation.omega if speed is None else speed
         data = _shipped() if self.theory == BERNOULLI_EULER else None
-        blade, known, a = self.case.blade, self._known, np.asarray(amplitudes, dtype=float)
-        at = [(speed, one) for one in a.ravel().tolist()]
-        for place in set(at) - set(known):
-            here = data.frequency_at(blade, *place) if data else None
-            if here is not None:
-                known[place] = here
-        missing = sorted(set(at) - set(known))
+        blade, a = self.case.blade, np.asarray(amplitudes, dtype=float)
+        known = {one: data and data.frequency_at(blade, speed, one) for one in a.ravel().tolist()}
+        missing = sorted(one for one, here in known.items() if here is None)
         if missing:
             # One backbone, for orbits are found from their neighbors.
-            found = periodic_orbits(blade, speed, [one for _, one in missing], theory=self.theory)
+            found = periodic_orbits(blade, speed, missing, theory=self.theory)
             known.update(zip(missing, found.frequency.tolist(), strict=True))
-        return np.array([known[place] for place in at]).reshape(a.shape)
+        return np.array([known[one] for one in a.ravel().tolist()], dtype=float).reshape(a.shape)
 
 
 @lru_cache(maxsize=64)  # the histories of a theory take minutes, and all codes of a table ask

@@ -43,12 +43,11 @@ def methods(beam):
         "state": lambda x: backbone.state(0, x),
         "axis": lambda x: backbone.axis(0, x, 0.3),
         "shapes": modes.shapes,
-        "axial_shapes": modes.axial_shapes,
         "spin_up": lambda x: spin_up_response(beam, spin_up, [0.01], tolerance=1e-4, points=x),
     }
 
 
-@pytest.mark.parametrize("method", ["state", "axis", "shapes", "axial_shapes", "spin_up"])
+@pytest.mark.parametrize("method", ["state", "axis", "shapes", "spin_up"])
 def test_beyond_the_ends_and_not_a_number(methods, method):
     for x in (-1.0, 9.0, [0.0, 8.001]):
         with pytest.raises(ValueError, match=r"on the beam, from 0 to its length of 8 m, got"):

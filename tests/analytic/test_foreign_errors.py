@@ -19,18 +19,15 @@ from analytic import (
     Theory,
     TipForce,
     Variant,
-    backbone,
     backbone_curve,
     campbell,
     damping_ratios,
     design_ramp,
     linear_modes,
     linear_response,
-    periodic_orbits,
     residual_amplitude,
     stability_limit,
 )  # fmt: skip
-from analytic.section import OutOfPlane
 from rotbeam_exu import natural_frequencies, simulate
 
 BEAM = Beam.reference()
@@ -116,13 +113,10 @@ def test_a_theory_is_a_theory(package, name, wrong):
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
-        (lambda: backbone_curve(BEAM, 6.0, 1e-300), "up_to must be at least 0.0001, got 1e-300"),
         # Round-off gave λ_ω = -0.76 for 0.0197.
         (lambda: backbone_curve(BEAM, 6.0, 1e-6), "up_to must be at least 0.0001"),
-        (lambda: backbone(BEAM, 6.0).branch(1e-300), "up_to must be at least 0.0001"),
         (lambda: stability_limit(STRIP, 6.0, largest=1e-300), "largest must be at least 0.0001"),
         (lambda: campbell(BEAM, []), "omegas must be a sequence of numbers"),
-        (lambda: campbell(BEAM, None), "omegas must be numbers in rad/s, got None"),
         (lambda: design_ramp(BEAM, 2.0, 5.0, modes=10**6), "modes must be at most 20"),
         (lambda: damping_ratios(DAMPED, 0.0, 200), "count must be at most 128, got 200"),
         (lambda: Blade(length=8.0, section=None), "section must be a Section, got None"),
@@ -136,13 +130,7 @@ def test_a_theory_is_a_theory(package, name, wrong):
             ),
             "point_masses must be several",
         ),
-        (lambda: BEAM.with_damping(None), "damping must be a Damping, got None"),
-        (
-            lambda: OutOfPlane(bending_ratio=4.0, torsion_ratio=np.array([0.5, 1.0])),
-            "torsion_ratio must be a number",
-        ),
         (lambda: simulate(BEAM, SLOW, element=3), "element must be the name of a formulation"),
-        (lambda: simulate(BEAM, None), "spin_up must be a SpinUp"),
         (lambda: natural_frequencies(BEAM, 6.0, element=None), "element must be the name"),
     ],
 )  # fmt: skip
@@ -151,18 +139,9 @@ def test_a_wrong_input_is_a_sentence(call, sentence):
         call()
 
 
-@pytest.mark.parametrize(
-    "refused",
-    [
-        lambda text: linear_modes(BEAM, text),
-        lambda text: linear_modes(BEAM, 6.0, text),
-        lambda text: periodic_orbits(BEAM, 6.0, [text]),
-        lambda text: periodic_orbits(text, 6.0, [0.1]),
-    ],
-)
-def test_a_long_text_is_not_repeated_whole(refused):
+def test_a_long_text_is_not_repeated_whole():
     with pytest.raises(TypeError) as refusal:
-        refused("6" * 10**6)
+        linear_modes(BEAM, "6" * 10**6)
     assert len(str(refusal.value)) < 300
 
 

@@ -81,7 +81,5 @@ def test_a_shape_that_does_not_tell_all_is_refused(shape, sentence):
     with pytest.raises(ValueError, match=sentence):
         Blade.from_shapes([0.0, 1.0], [shape, shape], E, RHO)
 
-
-def test_a_box_needs_its_lengths_on_a_blade_too():
     with pytest.raises(ValueError, match="needs height, width and wall"):
         Beam.reference().with_shape(Box())

@@ -20,7 +20,7 @@ class Duffing:
     """ẍ + x + x³ = 0, and a passenger y with ÿ + 9.3 y + x² = 0, which is even in time."""
 
     size = functions = 2
-    driven = False
+    driven = stiff = False
     odd = np.array([True, False])
     equilibrium = np.zeros(2)
 

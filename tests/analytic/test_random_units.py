@@ -34,7 +34,7 @@ def quiet():
         yield
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(slendernesses, rates, exponents, exponents, exponents)
 def test_modes_and_orbits_in_any_units(slenderness, rate, meter, kilogram, second):
     units = (10.0**meter, 10.0**kilogram, 10.0**second)
@@ -77,7 +77,7 @@ def attempted(function, *arguments, **options):
         return None, str(refusal)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(
     slendernesses,
     st.floats(min_value=-9.0, max_value=4.0).map(lambda e: 10.0**e),

@@ -263,7 +263,7 @@ def test_a_section_that_the_rotation_turns_over_is_refused():
 def test_a_bar_bent_on_edge_buckles_where_timoshenko_says(curvature, known, digits):
     """In the limit of a bar that hardly bends in its plane."""
     small = 1e-8
-    blade = BEAM.with_section_out_of_plane(small, small, 0.0)
+    blade = BEAM.with_section_out_of_plane(small, small)
     model = blade_continuum(blade, Theory(extension=False), 8, 1)
     shape = np.zeros(model.size)
     shape[: len(curvature)] = curvature
@@ -275,40 +275,6 @@ def test_a_bar_bent_on_edge_buckles_where_timoshenko_says(curvature, known, digi
         return np.linalg.eigvalsh(K / small)[0]
 
     assert optimize.brentq(least, 0.75 * known, 1.17 * known) == pytest.approx(known, abs=digits)
-
-
-def test_torsion_does_not_matter_to_a_round_section():
-    """In the tongue, where it grows, and with a twist that follows."""
-    exponents = [
-        # Not quite round, so that the twist is computed.
-        growth(
-            OutOfPlane(bending_ratio=1.0 + 1e-13, torsion_ratio=g, polar_inertia=0.0), 4.42, 0.5
-        ).exponent
-        for g in (0.2, 1.0, RIGID)
-    ]
-    exponents.append(growth(OutOfPlane(bending_ratio=1.0), 4.42, 0.5).exponent)
-    assert exponents[0] > 1e-3
-    assert exponents == pytest.approx([exponents[0]] * 4, rel=1e-6)
-
-
-def test_without_inertia_the_twist_follows(beam, fitted_order):
-    """Growth of the paper's rectangle, ever less inertia: to that of the quasi-static twist."""
-    shape = beam.with_shape(Rectangle()).section.out_of_plane
-    (orbit,) = periodic_orbits(beam, 2.0, 0.15).nondimensional
-    shape = beam.blade.with_shape(Rectangle(ratio=6.0)).section.out_of_plane
-
-    def exponent(share):
-        section = OutOfPlane(
-            bending_ratio=shape.bending_ratio,
-            torsion_ratio=shape.torsion_ratio,
-            polar_inertia=share * beam.slenderness * beam.mass_per_length * beam.length**2,
-        )
-        return grown(beam.with_section_out_of_plane(**asdict(section)), orbit, 10, 48).exponent
-
-    shares = np.array([1.0, 2.0, 4.0])
-    apart = [abs(exponent(share) - exponent(0.0)) for share in shares]
-    assert apart[0] < 0.05 * exponent(0.0)
-    assert fitted_order(shares, apart) == pytest.approx(1.0, abs=0.05)
 
 
 @pytest.mark.parametrize(

@@ -224,14 +224,6 @@ def test_a_tube_that_hardly_turns_stays_in_the_plane(beam, omega):
     assert found.stable.all()
 
 
-def test_a_twist_without_inertia_that_buckles_grows_without_bound(beam):
-    shape = beam.blade.with_shape(Rectangle(ratio=18.5)).section.out_of_plane
-    blade = beam.with_section_out_of_plane(shape.bending_ratio, shape.torsion_ratio, 0.0)
-    found = planar_stability(blade, 2.0, 0.3)
-    assert found.growth_rate[0] == math.inf
-    assert found.modes == (("torsion 1",),)
-
-
 def test_a_stability_of_growth_that_overflows_is_finite(beam):
     """The rectangle at 0.4 of its length: multipliers beyond what a number holds."""
     found = planar_stability(beam.with_shape(Rectangle()), 2.0, 0.4)
@@ -260,12 +252,8 @@ ROUND = Tube()
         ),
         (lambda: planar_stability(UNIT.with_shape(ROUND), 1.0, 0.1, damping=-0.1), "not be neg"),
         (
-            lambda: planar_stability(
-                UNIT.with_section_out_of_plane(0.5, 0.5, 0.0).with_damping(Damping(bending=0.1)),
-                1.0,
-                0.1,
-            ),
-            "twist without inertia .* take polar_inertia above zero",
+            lambda: planar_stability(UNIT.with_section_out_of_plane(0.5, 0.5, 0.0), 1.0, 0.1),
+            "twist without inertia: take .* polar_inertia above zero",
         ),
         (lambda: planar_stability(UNIT.with_shape(ROUND), 1.0, 1.5), "between 0 and 1"),
         (lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, largest=1.0), "below 1"),

@@ -7,7 +7,7 @@ import pytest
 import scipy.linalg  # noqa: F401 - its BLAS is one more, loaded before any is counted
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from analytic import Beam, Theory, backbone, periodic_orbits
+from analytic import Beam, Theory, backbone
 from analytic.exact.free import backbone as backbones
 from analytic.threads import one_thread
 
@@ -63,11 +63,6 @@ def test_a_call_that_another_thread_makes_meanwhile_changes_nothing(two):
     assert threads() == two
     leave.set()
     other.join()
-    assert threads() == two
-
-
-def test_a_public_verb_leaves_the_setting(two):
-    periodic_orbits(Beam.reference(), 6.0, [0.1], functions=8)
     assert threads() == two
 
 

@@ -115,23 +115,14 @@ def test_a_terminal_obeys_no_author(call, folder, tmp_path):
     rows = [f"{row}{HOSTILE}" if n else row for n, row in enumerate(listed)]
     rows.append(f"S1/m064_h1e-3.csv,64,1e-3,,,,,{HOSTILE},")
     (folder / "runs.csv").write_text("\n".join(rows), "utf-8")
+    (folder / "L.csv").write_text(f"elements,speed,frequency\n8,{HOSTILE},1\n", "utf-8")
     code, out, err = call("judge", folder)
-    assert code in (0, 1), err
+    assert code == 2
     assert r"mine\x1b]0;owned\x07\x1b[31m\x9b2J\u202eedoc" in out
     assert set(steers(out + err)) == {"\n"}
-    (folder / "L.csv").write_text(f"elements,speed,frequency\n8,{HOSTILE},1\n", "utf-8")
-    (folder / f"{HOSTILE}.csv").write_text("", "utf-8")
-    code, out, err = call("judge", folder)
-    assert code == 2
-    assert set(steers(out + err)) == {"\n"}
-
-
-def test_an_error_about_a_file_steers_no_terminal(call, tmp_path):
     path = tmp_path / f"{HOSTILE}.toml"
     path.write_text(f"{HOSTILE} = 1", "utf-8")
-    code, out, err = call("run", "--config", path)
-    assert code == 2
-    assert set(steers(out + err)) == {"\n"}
+    assert set(steers(call("run", "--config", path)[2])) == {"\n"}
 
 
 def test_one_case_is_read_and_judged_alone(call, folder):

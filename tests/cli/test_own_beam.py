@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 
-import analytic
 from analytic import Beam
 from rotbeam_exu import comparison, explorer, paper
 from rotbeam_exu.cli import compare as compare_job
 from rotbeam_exu.cli.motion import ChosenMotion, grid_motion
 from rotbeam_exu.files.beam_file import load_beam
-from rotbeam_exu.verification import verify as room
 from tests.beams import BLADE_TOML, REED_TOML
 
 
@@ -26,7 +24,8 @@ def reed(tmp_path):
 
 def test_the_explorer_of_a_reed_has_its_own_speeds(call, tmp_path, monkeypatch, reed):
     seen = {}
-    monkeypatch.setattr(explorer, "explorer_page", lambda **options: seen.update(options) or "")
+    monkeypatch.setattr(explorer, "explorer_data", lambda beam, **o: seen.update(o, beam=beam))
+    monkeypatch.setattr(explorer, "explorer_page", lambda _: "")
     monkeypatch.chdir(tmp_path)
     code, out, _ = call("explore", "--config", reed)
     assert code == 0
@@ -85,25 +84,3 @@ def test_figures_are_of_the_paper_and_say_so(call, reed):
     assert code == 2
     assert "Unknown option: --config" in error
     assert "Figures show the paper's beam" in " ".join(call("figure", "--help")[1].split())
-
-
-def test_ctrl_c_says_what_is_kept_or_that_nothing_is(call, tmp_path, monkeypatch):
-    def stopped(*_, **__):
-        raise KeyboardInterrupt
-
-    cache = tmp_path / "cache"
-    monkeypatch.setattr(explorer, "explorer_page", stopped)
-    page = ("explore", "--out", tmp_path / "page.html")
-    assert f"kept in the cache {cache}" in call(*page, "--cache", cache)[2]
-    code, _, error = call(*page)
-    assert (code, error) == (130, "rotbeam: interrupted; nothing was written\n")
-    monkeypatch.setattr(comparison, "figure_14", stopped)
-    code, _, error = call("compare", "--cache", cache, "--out", tmp_path)
-    assert code == 130
-    assert f"kept in the cache {cache}" in error
-    monkeypatch.setattr(room, "verify", stopped)
-    monkeypatch.setattr(analytic, "spin_up_response", stopped)
-    for command in (("verify", "--element", "cable"), ("reference", "--out", tmp_path)):
-        code, _, error = call(*command)
-        assert (code, error) == (130, "rotbeam: interrupted; nothing was written\n")
-    assert not list(tmp_path.iterdir())

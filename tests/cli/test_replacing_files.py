@@ -2,10 +2,11 @@
 
 import pytest
 
-from rotbeam_exu import comparison, figures, load
+import analytic
+from rotbeam_exu import comparison, explorer, figures, load
 from rotbeam_exu.fem import simulation
-from rotbeam_exu.runs import oscillation
 from rotbeam_exu.sweeps import grid
+from rotbeam_exu.verification import verify
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
 QUICK = ("--no-figure", "--no-exact")
@@ -83,27 +84,29 @@ def test_a_sweep_does_not_replace_another_grid(call, tmp_path, monkeypatch):
     assert swept("--omega", "5", "--ramp-time", "3", "--force")[0] == 0
 
 
-def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
-    def stopped(*_, **__):
-        raise KeyboardInterrupt
+def stopped(*_, **__):
+    raise KeyboardInterrupt
 
-    monkeypatch.setattr(grid, "sweep", stopped)
-    code, _, error = call("sweep", "--cache", tmp_path / "c", "--out", tmp_path)
-    assert code == 130
-    assert f"interrupted; finished spin-ups are kept in the cache {tmp_path}/c" in error
 
-    def later(_):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(oscillation, "steady_oscillation", later)
-    code, _, error = call("run", *SHORT, "--out", tmp_path)
-    assert code == 130
-    assert f"kept: {tmp_path}/cable-2-omega-6-ramp-3.nc" in error
-
-    monkeypatch.setattr(comparison, "figure_14", stopped)
-    code, _, error = call("figure", "14", "--cache", tmp_path / "c", "--out", tmp_path)
-    assert code == 130
-    assert f"finished spin-ups are kept in the cache {tmp_path}/c" in error
+@pytest.mark.parametrize(
+    ("command", "room", "name"),
+    [
+        ("sweep", grid, "sweep"),
+        ("explore", explorer, "explorer_page"),
+        ("compare", comparison, "figure_14"),
+        ("verify --element cable", verify, "verify"),
+        ("reference", analytic, "spin_up_response"),
+    ],
+)
+def test_ctrl_c_says_what_is_kept_or_that_nothing_is(
+    call, tmp_path, monkeypatch, command, room, name
+):
+    monkeypatch.setattr(room, name, stopped)
+    monkeypatch.chdir(tmp_path)
+    kept = "nothing was written"
+    if command in ("sweep", "explore", "compare"):
+        command, kept = f"{command} --cache c", "finished spin-ups are kept in the cache c"
+    assert call(*command.split())[::2] == (130, f"rotbeam: interrupted; {kept}\n")
 
 
 @pytest.mark.parametrize(
@@ -113,19 +116,12 @@ def test_ctrl_c_says_what_is_kept(call, tmp_path, monkeypatch):
             "ramp --omega 2 --longest 3 --points 0 --finite-element-points 0",
             "residual", "ramp-omega-2-longest-3",
         ),
-        (
-            "stability --omega 6 --section tube --amplitude 0.02",
-            "planar_stability", "stability-tube-omega-6-mode-1",
-        ),
         ("figure 8", "figure_8", "figure_8"),
     ],
 )  # fmt: skip
 def test_ctrl_c_while_a_figure_is_drawn_says_where_its_data_is(
     call, tmp_path, monkeypatch, command, drawing, name
 ):
-    def stopped(*_, **__):
-        raise KeyboardInterrupt
-
     monkeypatch.setattr(figures, drawing, stopped)
     code, _, error = call(*command.split(), "--out", tmp_path)
     assert code == 130

@@ -7,13 +7,13 @@ import pandas as pd
 import pytest
 
 import analytic
-from analytic import Beam, Damping, SpinUp, TipForce
+from analytic import Beam, Damping, Gravity, SpinUp, TipForce
 from rotbeam_exu import comparison, load, simulate
 from rotbeam_exu.cli import animate
-from rotbeam_exu.fem.case import RunCase
-from rotbeam_exu.files.beam_file import load_run_file
-from rotbeam_exu.runs.oscillation import steady_oscillation
-from rotbeam_exu.verification import verify as room
+from rotbeam_exu.fem import simulation
+from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu.sweeps import grid
+from rotbeam_exu.verification import verify as room_of_verify
 
 RUN = """
 [motion]
@@ -36,16 +36,31 @@ def config(tmp_path):
     return path
 
 
-def test_a_file_without_a_beam_is_of_the_papers(config):
-    file = load_run_file(config)
-    assert file.beam == Beam.reference()
-    assert file.motion == {"omega": 4.0, "ramp_time": 2.5}
-    assert file.numerics["elements"] == 2
+@pytest.fixture
+def reached(call, config, tmp_path, monkeypatch):
+    """Return a function: what a command hands to a function that would take long."""
+    monkeypatch.chdir(tmp_path)
+
+    def arguments(room, name, *command):
+        seen = []
+
+        def stopped(*given, **options):
+            seen.append((given, options))
+            raise KeyboardInterrupt
+
+        with monkeypatch.context() as patch:
+            patch.setattr(room, name, stopped)
+            assert call(*command, "--config", config)[0] == 130
+        return seen[0]
+
+    return arguments
 
 
-def test_motion_and_numerics_are_taken_and_options_come_first(call, tmp_path, config):
-    code, out, _ = call("run", "--config", config, "--no-figure", "--out", tmp_path)
+def test_motion_and_numerics_are_taken_and_options_come_first(call, tmp_path, config, reached):
+    quick = ("--no-exact", "--no-figure", "--out", tmp_path)
+    code, out, _ = call("run", "--config", config, *quick)
     assert code == 0
+    assert "exact ω_NL            cannot be had: it was not asked for" in out
     run = load(tmp_path / "cable-2-omega-4-ramp-2.5.nc")
     attrs = {"omega": 4.0, "ramp_time": 2.5, "elements": 2, "step": 0.01, "duration": 8.0,
              "frame": "rotating", "element": "cable"}  # fmt: skip
@@ -54,21 +69,35 @@ def test_motion_and_numerics_are_taken_and_options_come_first(call, tmp_path, co
         f"written {tmp_path}/cable-2-omega-4-ramp-2.5.{kind}" for kind in ("nc", "csv")
     ]
     given = ("--elements", "1", "--omega", "5", "--frame", "inertial", "--element", "exact")
-    assert call("run", "--config", config, *given, "--no-figure", "--out", tmp_path)[0] == 0
-    run = load(tmp_path / "exact-1-omega-5-ramp-2.5.nc")
-    assert (run.attrs["frame"], run.attrs["step"]) == ("inertial", 0.01)
+    (case,), _ = reached(simulation, "run_case", "run", *given)
+    assert case.element == Exact()
+    assert (case.elements, case.omega, case.ramp_time) == (1, 5.0, 2.5)
+    assert (case.frame, case.step) == ("inertial", 0.01)
 
 
-def test_the_motion_of_the_file_reaches_the_other_commands(call, config, tmp_path):
+def test_the_file_reaches_the_other_commands(call, config, reached):
+    """`ramp` designed for the speed it would have chosen, 6 rad/s, where the file said 4."""
     assert "at ω = 4 rad/s" in call("backbone", "--config", config)[1]
-    assert call("reference", "--config", config, "--tolerance", "1e-4", "-o", tmp_path)[0] == 0
-    exact = load(tmp_path / "exact-omega-4-ramp-2.5.nc")
-    assert exact["time"][-1] == 8.0
-    code, _, _ = call(
-        "sweep", "--config", config, "--jobs", "1", "--cache", tmp_path / "cache", "-o", tmp_path
-    )
-    assert code == 0
-    assert dict(load(tmp_path / "sweep-cable-2.nc").sizes) == {"omega": 1, "ramp_time": 1}
+    for room, command in ((analytic, "reference"), (animate, "animate")):
+        (beam, spin_up, times), _ = reached(room, "spin_up_response", command)
+        assert (beam, spin_up) == (Beam.reference(), SpinUp(omega=4.0, ramp_time=2.5))
+        assert times[-1] == 8.0
+    _, options = reached(grid, "sweep", "sweep")
+    assert (options["omegas"], options["ramp_times"]) == ([4.0], [2.5])
+    assert (options["frame"], options["elements"]) == ("rotating", 2)
+    for more, omega, elements in (((), 4.0, 2), (("--omega", "5", "--elements", "1"), 5.0, 1)):
+        (_, speed), options = reached(comparison, "residual", "ramp", *more)
+        assert (speed, options["elements"]) == (omega, elements)
+        assert options["element"].name == "cable"
+    tube = ("stability", "--section", "tube", "--amplitude", "0.02")
+    assert reached(analytic, "planar_stability", *tube)[0][1] == 4.0
+    assert "--omega" in call(*tube)[2]
+    (entry,), options = reached(room_of_verify, "verify", "verify", "--element", "cable")
+    assert (entry.step, options["duration"], options["spin_up"].omega) == (0.01, 8.0, 4.0)
+    # The diagram goes to twice the speed; the Explorer has sliders.
+    assert reached(analytic, "campbell", "campbell")[0][1][-1] == 8.0
+    code, _, error = call("explore", "--config", config)
+    assert (code, "leave [motion] out of the file" in error) == (2, True)
 
 
 @pytest.mark.parametrize(
@@ -98,25 +127,18 @@ def test_a_slip_in_the_file_is_one_sentence(call, tmp_path, text, sentence):
     assert len(error.strip().splitlines()) == 1
 
 
-def test_loads_and_damping_of_the_file_and_of_options(call, config, tmp_path):
+def test_loads_and_damping_of_the_file_and_of_options(call, config, tmp_path, reached):
     """Options replace the file's; the frequency of a free orbit is not compared with theirs."""
     config.write_text(f"{RUN}[[loads]]\nkind = 'Gravity'\ngravity = 1.6\n")
-    path = tmp_path / "cable-2-omega-4-ramp-2.5.nc"
-    quiet = ("--config", config, "--no-figure", "--force", "--out", tmp_path)
-    code, out, _ = call("run", *quiet)
+    code, out, _ = call("run", "--config", config, "--no-figure", "--out", tmp_path)
     assert code == 0
     assert re.search(r"^loads +.*gravity of 1.6 m/s", out, re.MULTILINE)
     assert "cannot be had: loads and damping make it another" in out
-    weak = load(path)
     options = ("--tip-force", "0.5", "--load-frequency", "3", "--damping-ratio", "0.01")
-    assert call("run", *quiet, *options)[0] == 0
-    case = RunCase.described(load(path).attrs)
+    (case,), _ = reached(simulation, "run_case", "run", *options, "--force")
     assert case.loads == (TipForce(amplitude=0.5, frequency=3.0),)
     assert case.beam.damping == Damping.from_ratio(Beam.reference(), 1, 0.01)
-    swept = ("sweep", "--config", config, "--jobs", "1", "--cache", tmp_path / "cache")
-    assert call(*swept, "-o", tmp_path)[0] == 0
-    amplitude = steady_oscillation(weak).amplitude
-    assert load(tmp_path / "sweep-cable-2.nc")["amplitude"].item() == pytest.approx(amplitude)
+    assert reached(grid, "sweep", "sweep")[1]["loads"] == (Gravity(1.6),)
 
 
 def test_loads_that_cannot_be_taken_are_refused(call, config, tmp_path):
@@ -127,21 +149,6 @@ def test_loads_that_cannot_be_taken_are_refused(call, config, tmp_path):
         2,
         True,
     )
-
-
-def test_no_exact_leaves_the_exact_orbit_out(call, config, tmp_path, monkeypatch):
-    monkeypatch.setattr(analytic, "periodic_orbits", None)
-    quick = ("run", "--config", config, "--no-exact", "--no-figure", "--out", tmp_path)
-    assert "exact ω_NL            cannot be had: it was not asked for" in call(*quick)[1]
-
-
-def test_motion_is_read_or_refused(call, config, tmp_path):
-    """The diagram goes to twice the speed; the Explorer has sliders."""
-    modes = ("campbell", "--config", config, "--points", "2", "--count", "1", "--out", tmp_path)
-    assert call(*modes)[0] == 0
-    assert load(tmp_path / "campbell-given.nc")["omega"][-1] == 8.0
-    code, _, error = call("explore", "--config", config, "--out", tmp_path / "page.html")
-    assert (code, "leave [motion] out of the file" in error) == (2, True)
 
 
 def test_an_element_or_a_frame_that_is_none_is_refused(call, config, tmp_path):
@@ -178,8 +185,9 @@ def test_the_reference_is_the_exact_spin_up(call, tmp_path):
     table = pd.read_csv(tmp_path / "exact-omega-2-ramp-4.csv", comment="#")
     assert np.array_equal(table["q [m]"], data["q"])
     assert np.array_equal(data["time"], np.arange(7.0))
-    # 16 elements of fourth order and 1 ms: 1e-4 of the largest deflection is plenty.
-    run = simulate(Beam.reference(), SpinUp(omega=2.0, ramp_time=4.0), duration=6.0, step=1e-3)
+    # 8 elements of fourth order and 2 ms: 1e-4 of the largest deflection is plenty.
+    motion = SpinUp(omega=2.0, ramp_time=4.0)
+    run = simulate(Beam.reference(), motion, elements=8, duration=6.0, step=2e-3)
     for name in ("q", "q_dot", "tip_x", "tip_y", "angle"):
         there = np.interp(data["time"], run["time"], run[name])
         assert data[name].to_numpy() == pytest.approx(there, abs=1e-3)
@@ -191,37 +199,3 @@ def test_the_reference_is_the_exact_spin_up(call, tmp_path):
     code, _, error = call("reference", *quick[:6], "--samples", "8", "-o", tmp_path)
     assert code == 2
     assert "samples 7 instead of 8" in error
-
-
-def test_the_motion_of_the_file_is_that_of_ramp_and_stability(call, config, monkeypatch):
-    """`ramp` designed for the speed it would have chosen, 6 rad/s, where the file said 4."""
-    seen = []
-
-    def stopped(_, omega, *__, **options):
-        seen.append((omega, getattr(options.get("element"), "name", None), options.get("elements")))
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(comparison, "residual", stopped)
-    monkeypatch.setattr(analytic, "planar_stability", stopped)
-    tube = ("stability", "--section", "tube", "--amplitude", "0.02")
-    for command in (("ramp",), ("ramp", "--omega", "5", "--elements", "1"), tube):
-        assert call(*command, "--config", config)[0] == 130
-    assert seen == [(4.0, "cable", 2), (5.0, "cable", 1), (4.0, None, None)]
-    assert "--omega" in call(*tube)[2]
-
-
-def test_duration_and_step_of_the_file_reach_animate_and_verify(
-    call, config, tmp_path, monkeypatch
-):
-    def filmed(beam, spin_up, times, **_):
-        raise KeyboardInterrupt(f"{times[-1]:g} {spin_up.omega:g}")
-
-    monkeypatch.setattr(animate, "spin_up_response", filmed)
-    film = ("animate", "--config", config, "--rate", "1", "--out", tmp_path / "film.gif")
-    assert "8 4" in call(*film)[2]
-
-    def stopped(entry, *, spin_up, duration, **_):
-        raise KeyboardInterrupt(f"{entry.step:g} {duration:g} {spin_up.omega:g}")
-
-    monkeypatch.setattr(room, "verify", stopped)
-    assert "0.01 8 4" in call("verify", "--element", "cable", "--config", config)[2]

@@ -87,19 +87,6 @@ def test_processes_give_the_same_bits(beam, serial):
     xr.testing.assert_identical(found, serial.sel(omega=[4.0], ramp_time=[2.0]))
 
 
-@pytest.mark.slow  # processes, above, take the same way; a cluster's start is all that it adds
-def test_dask_gives_the_same_bits(beam, serial):
-    distributed = pytest.importorskip("distributed")
-    with (
-        distributed.LocalCluster(
-            n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        found = sweep(beam, **SMALL, **COARSE, executor=client.get_executor())
-    xr.testing.assert_identical(found, serial)
-
-
 def test_a_finished_sweep_is_read_not_run(beam, serial, cache, monkeypatch):
     monkeypatch.setattr(sweeps, "solve", lambda case: pytest.fail("ran a finished case"))
     again = sweep(beam, **SMALL, **COARSE, cache=cache)

@@ -32,6 +32,16 @@ def test_a_loaded_run_can_be_done_again_to_the_bit(run, tmp_path):
     assert json.loads(attrs["settings"])["spectral_radius"] == 0.9
 
 
+@pytest.mark.parametrize("name", ["time", "q"])
+def test_a_changed_bit_of_a_number_is_refused(run, tmp_path, name):
+    path = save(run, tmp_path / "run.nc")
+    raw = bytearray(path.read_bytes())
+    raw[raw.index(run[name].to_numpy()[10:20].tobytes()) + 3] ^= 1
+    path.write_bytes(raw)
+    with pytest.raises(ValueError, match="write it again"):
+        load(path)
+
+
 def test_every_variable_has_unit_and_name(run):
     for variable in run.variables.values():
         assert {"units", "long_name"} <= set(variable.attrs)
@@ -143,7 +153,9 @@ def test_a_table_has_a_row_for_each_point_of_the_grid(tmp_path):
     )
     for dims in (["y", "x"], ["x", "y"]):
         given = data.transpose(*dims)
-        table = pd.read_csv(save(given, tmp_path / "x.csv"), comment="#", parse_dates=["day"])
+        path = save(given, tmp_path / "x.csv")
+        assert ",nan," in path.read_text(encoding="utf-8"), "no text in quotes"
+        table = pd.read_csv(path, comment="#", parse_dates=["day"])
         # By the other library's own way.
         wanted = given.to_dataframe(dim_order=list(given.sizes)).reset_index()
         pd.testing.assert_frame_equal(
@@ -158,7 +170,7 @@ def test_seconds_are_no_time_deltas(tmp_path):
 
 
 def test_fill_values_of_another_file_are_not_taken_over(tmp_path):
-    data = xr.Dataset({"v": ("x", [1.0, np.nan, -1.0])})
+    data = xr.Dataset({"v": ("x", [1.0, np.nan, -0.5])})
     data["v"].encoding = {"_FillValue": -1.0, "dtype": "int16", "scale_factor": 0.5}
     xr.testing.assert_identical(load(save(data, tmp_path / "x.nc")), data)
 

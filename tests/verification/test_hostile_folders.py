@@ -73,7 +73,7 @@ def test_only_regular_files_below_the_folder_are_read(mine, kind):
     (mine / "S1").mkdir()
     (mine / "runs.csv").write_text("file,elements,step\n" + ROW, "utf-8")
     put(mine, "S1/m008_h1e-3.csv", kind)
-    said = {"pipe": "is no regular file but a pipe"}.get(kind, "is a link that leads out of the")
+    said = {"pipe": "a pipe or a device: put"}.get(kind, "is a link that leads out of the")
     names = ["L.csv", "S1/m008_h1e-3.csv"]
     put(mine, "L.csv", kind)
     found = faults_of(mine)
@@ -119,33 +119,20 @@ def test_too_much_is_not_read(mine):
     ]
 
 
-def long_row(text):
-    return TABLE + text + "\n"
-
-
 FLOODS = {
-    "rows": ("L.csv", TABLE + "x,y,z\n" * 20_000, r":3: elements: 'x' .* 19,999 more\)"),
+    "rows": ("L.csv", TABLE + "x,y,z\n" * 2_000, r":3: elements: 'x' .* 1,999 more\)"),
     "different rows": (
         "L.csv",
-        TABLE + "".join(f"8,{k}.5,'{k:x}\"\n" for k in range(10_000)),
-        r":3: speed 0\.5 is not asked for: .*9,999 more\)",
+        TABLE + "".join(f"8,{k}.5,'{k:x}\"\n" for k in range(1_000)),
+        r":3: speed 0\.5 is not asked for: .*999 more\)",
     ),
-    "short rows": ("L.csv", TABLE + "x\n" * 20_000, r":3: has 1 cell, .* 19,999 more\)"),
-    "no rows of CSV": ("L.csv", TABLE + 'a"b"c,"\n' * 20_000, r"no row of CSV.* 19,999 more\)"),
+    "short rows": ("L.csv", TABLE + "x\n" * 2_000, r":3: has 1 cell, .* 1,999 more\)"),
+    "no rows of CSV": ("L.csv", TABLE + 'a"b"c,"\n' * 2_000, r"no row of CSV.* 1,999 more\)"),
     "columns": ("L.csv", ",".join(f"c{k}" for k in range(10**6)), r":1: has 7,888,889 letters"),
     "alike columns": ("L.csv", TABLE.replace("\n", ",x" * 4000 + "\n"), r"column 'x' occurs twice"),
-    "blanks": ("L.csv", "elements" + " " * 10**6 + "x,speed,frequency\n", r":1: has .* letters"),
-    "cells": ("L.csv", long_row("1," * 10**6), r":3: has 2,000,000 letters, more than 10,000"),
-    "lines": ("L.csv", TABLE + "\n" * 2_000_100, r"more than 2,000,000 lines"),
-    "runs": ("runs.csv", "file,elements,step\n" + "x,y,z\n" * 20_000, r"'x' is no case.*19,999"),
-    "files": (
-        "runs.csv",
-        "file,elements,step\n" + "".join(f"S1/m{k}_h1e-3.csv,{k},1e-3\n" for k in range(1, 4000)),
-        r"S1/m10_h1e-3\.csv: there is no such file \(and so in 3,989 more\)",
-    ),
-    "keys": ("entry.toml", "".join(f"k{k} = 1\n" for k in range(10**5)), r"more than 32,000 bytes"),
-    "fewer keys": ("entry.toml", "".join(f"k{k}=1\n" for k in range(3000)), r"'k0'.* 2,999 more"),
-    "nesting": ("entry.toml", "a = " + "[" * 30_000, r"nested too deeply"),
+    "runs": ("runs.csv", "file,elements,step\n" + "x,y,z\n" * 2_000, r"'x' is no case.*1,999"),
+    "keys": ("entry.toml", "".join(f"k{k}=1\n" for k in range(300)), r"'k0'.* 299 more"),
+    "nesting": ("entry.toml", "a = " + "[" * 30_000, r"is not valid TOML: "),
 }
 
 
@@ -171,11 +158,10 @@ def test_a_number_without_end_is_no_number_at_once(cell):
 def test_a_code_has_a_name(mine, code):
     (mine / "entry.toml").write_text(f'benchmark = "1.0"\ncode = "{code}"\n', "utf-8")
     (fault,) = faults_of(mine)
-    assert fault == 'entry.toml:2: there is no code: write code = "name of your code"'
+    assert fault == 'entry.toml: there is no code: write code = "name of your code"'
 
 
 def test_a_fault_in_several_files_is_told_of_each(tmp_path):
-    """Up to ten; a kind is one sentence with other numbers and cells."""
     row = Row(elements=8, speed=6.0, values=(3.731123456,))
     submission = Submission(declaration=Declaration(code="a"), rows=(row,))
     folder = write_submission(submission, tmp_path / "mine")

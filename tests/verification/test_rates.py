@@ -13,7 +13,7 @@ from scipy import special
 from rotbeam_exu.verification.convergence import converged
 from rotbeam_exu.verification.outcomes import Outcome, found_of
 
-DEFAULT, MANY = 30, 2000
+DEFAULT, MANY = 20, 2000
 WHOLE = (8, 16, 32, 16, 16), (2e-3, 2e-3, 2e-3, 1e-3, 4e-3)
 FAR = 3.4
 """Of FrE at 6 rad/s: 17 % of the shift, of which 5 % pass."""

@@ -18,7 +18,7 @@ from rotbeam_exu.verification.submission_files.faults import MalformedSubmission
 DECLARATION = Declaration(
     code="Balken", version="2.1", url="https://example.org", licence="MIT", element="B22",
     machine="one core", remarks='of "two\nlines", and a tail\x7f', authors=("A. Å.", "B"),
-    theory=Theory(rotary_inertia=True, shear=0.3205), inextensible=True,
+    theory=Theory(rotary_inertia=True, shear=0.3205, engesser=True), inextensible=True,
     order=4.0, order_in_step=2.0, benchmark=VERSION,
 )  # fmt: skip
 
@@ -195,7 +195,7 @@ FAULTS = [
     (S1, lines((7, lambda row: "0.1,nan")), ":7: q: 'nan' is not finite"),
     (S1, lines((7, lambda row: "0.1,1.5D-01")), ":7: q: '1.5D-01' has Fortran's exponent D"),
     (S1, lines((7, lambda row: "0.1,0x1p3")), ":7: q: '0x1p3' is no number"),
-    (S1, lines((7, lambda row: "0.1,1e999")), ":7: q: '1e999' is too large"),
+    (S1, lines((7, lambda row: "0.1,1e999")), ":7: q: '1e999' is not finite"),
     (S1, lines((7, lambda row: "0.1,1e300")), ":7: q is 1e+300 m, of a beam of"),
     (S1, lines((7, lambda row: "0.02,0.5")), ":7: time must increase, but 0.02 s follows 0.08 s"),
     (S1, lambda text: "\n".join(text.split("\n")[:500]), ":500: ends at 9.96 s"),
@@ -216,11 +216,15 @@ FAULTS = [
     ("runs.csv", lambda text: text.replace("S1/m008", "S5/m008"), ":2: 'S5' is no case"),
     ("runs.csv", lambda text: text.replace("S1/m008", "../m008"), ":2: '..' is no case"),
     ("runs.csv", lambda text: text.replace("m008_h1e-3.csv", "8.csv"), "write S1/m032_h1e-3.csv"),
-    ("runs.csv", lambda text: text.replace("csv,8,", "csv,9,"), "the file's name says 8"),
-    ("runs.csv", lambda text: text.replace("csv,8,0.001", "csv,8,1"), "the file's name says 0.001"),
+    ("runs.csv", lambda text: text.replace("csv,8,", "csv,9,"), "name says 8 elements and a step"),
+    ("runs.csv", lambda text: text.replace("csv,8,0.001", "csv,8,1"), "a step of 0.001, the row"),
     ("runs.csv", lambda text: text.replace("csv,8,", "csv,8.5,"), "must be a whole number"),
-    ("runs.csv", lambda text: text.replace("8,0.001,,", "8,,1e-3,"), "there must be a step and no"),
-    ("runs.csv", lambda text: text.replace("8,0.001,,", "8,1e-3,1e-6,"), "a step and no tolerance"),
+    ("runs.csv", lambda text: text.replace("8,0.001,,", "8,,1e-3,"), "a step of 0.001, the row"),
+    (
+        "runs.csv",
+        lambda text: text.replace("8,0.001,,", "8,1e-3,1e-6,"),
+        "a step of 0.001, the row does not",
+    ),
     (
         "runs.csv",
         lambda text: text.replace("S1/m008_h1e-3.csv,8,0.001,", "S1/m008_t1e-6.csv,8,,1e-6"),
@@ -239,11 +243,16 @@ FAULTS = [
     ("W/m016_h1e-3.csv", lambda text: text.replace("lag", "q"), ":1: unknown column 'q'"),
     ("entry.toml", None, "there is no such file"),
     ("entry.toml", lambda text: text + "\norder =", "is not valid TOML"),
-    ("entry.toml", lambda text: "kode = 'a'\n" + text, ":1: unknown key 'kode'; did you mean"),
-    ("entry.toml", lambda text: text.replace(f'"{VERSION}"', "1.0"), ":1: benchmark must be text"),
+    ("entry.toml", lambda text: "kode = 'a'\n" + text, "unknown key 'kode'; did you mean"),
+    ("entry.toml", lambda text: text.replace(f'"{VERSION}"', "1.0"), "benchmark must be text"),
     ("entry.toml", lambda text: text.replace(f'"{VERSION}"', '"0.9"'), f"judge knows {VERSION}"),
     ("entry.toml", lambda text: text.replace('"inextensible"', '"3d"'), "unknown tag '3d'"),
     ("entry.toml", lambda text: text.replace("share = 0.3205", "nu=1"), "[shear] takes k_s and nu"),
+    (
+        "entry.toml",
+        lambda text: text.replace("Engesser", "Haringx"),
+        "must be Reissner or Engesser",
+    ),
     ("entry.toml", lambda text: text.replace("order = 4.0", "order = -4"), "must be positive"),
     ("entry.toml", lambda text: text.replace("order = 4.0", "order = 'a'"), "must be a number"),
 ]
@@ -274,8 +283,8 @@ def test_all_faults_are_told_at_once(good):
     shutil.copy(good / "runs.csv", good / "S11" / "m001_h1.csv")
     found = "\n".join(faults_of(good))
     for said in (
-        "entry.toml:1: code must be text", "entry.toml: there is no benchmark",
-        f"{S1}: there is no such file", "L.csv: is not text", "S1+h/m016_h5e-4.csv: is a folder",
+        "entry.toml: code must be text", "entry.toml: there is no benchmark",
+        f"{S1}: there is no such file", "L.csv: is not text", "S1+h/m016_h5e-4.csv: is a folder, ",
         "l.csv: is a table that nobody asked for; did you mean L.csv?",
         "S11: is the folder of no case; did you mean S1?",
     ):  # fmt: skip

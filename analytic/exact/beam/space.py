@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -33,9 +33,6 @@ from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import BERNOULLI_EULER, Theory
 from .continuum import Continuum
 from .steady import SteadyBeam
-
-Twist = Literal["inertial", "quasi-static", "rigid"]
-"""Kinds of twist: it moves with its inertia, follows without inertia, or does not exist."""
 
 
 @lru_cache(maxsize=32)
@@ -54,18 +51,19 @@ class Space:
     def __init__(self, blade: AnyBlade, functions: int, theory: Theory = BERNOULLI_EULER) -> None:
         section = require_out_of_plane(blade)
         self.blade, self.unit, self.section, self.theory = blade, blade.unit, section, theory
-        inert = theory.trapeze or theory.rotary_inertia
         self.shapes = shape_functions(self.unit, functions)
         self.functions = self.shapes.count
         self.g = np.inf if section.torsion_ratio is None else section.torsion_ratio
         # At r = 1 the twist follows κβ at no cost, whatever g. Its inertia would split the double
         # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
-        self.twist: Twist = (
-            "rigid" if np.isinf(self.g) or section.bending_ratio == 1.0
-            else "quasi-static" if section.polar_inertia == 0.0 or not inert
-            else "inertial"
-        )  # fmt: skip
-        self.size = (1 + (self.twist == "inertial")) * self.functions
+        self.twists = bool(np.isfinite(self.g)) and section.bending_ratio != 1.0
+        inert = theory.trapeze or theory.rotary_inertia
+        if self.twists and (section.polar_inertia == 0.0 or not inert):
+            raise ValueError(
+                "motion out of the plane is not known for a twist without inertia: take a theory "
+                "with rotary_inertia=True, and polar_inertia above zero"
+            )
+        self.size = (1 + self.twists) * self.functions
 
     @cached_property
     def mass(self) -> FloatArray:
@@ -73,7 +71,7 @@ class Space:
         at, dm = self.unit.inertia(self.shapes.a_panel + 3)
         w = self.shapes.twice(at)
         across = w.T @ (dm[:, None] * w)
-        if self.twist != "inertial":
+        if not self.twists:
             return across
         x, dx = self.unit.quadrature(self.shapes.a_panel + 8)
         phi = self.shapes.once(x)
@@ -88,7 +86,7 @@ class Space:
         gyration = evaluated(unit.bending, x) / evaluated(unit.axial, x)
         if self.theory.trapeze:
             torsion = torsion + tension * self.blade.slenderness * (1.0 + r) * gyration
-        difference = (1.0 - r) / (1.0 + r) * self._polar(x) * (self.twist == "inertial")
+        difference = (1.0 - r) / (1.0 + r) * self._polar(x)
         return np.broadcast_to(torsion, tension.shape), difference * np.square(spin)
 
     def _polar(self, x: FloatArray) -> FloatArray:
@@ -116,7 +114,7 @@ class Space:
         bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
         straight = _form(angle, model.weights * tension / stretch - moment * kappa, angle)
         straight += _form(bent, r * bending, bent)
-        if self.twist == "rigid":
+        if not self.twists:
             twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
             mixed = _form(bent, excess, twist)
             twisted = -_form(twist, excess * kappa, twist)
@@ -129,10 +127,6 @@ class Space:
         mixed += _form(bent, excess, once)
         twisted = _form(strain, torsion, strain)
         twisted += _form(once, model.weights * turning - excess * kappa, once)
-        if self.twist == "quasi-static":
-            np.linalg.cholesky(twisted)  # refuses a twist that buckles
-            followed = np.linalg.solve(twisted, np.swapaxes(mixed, 1, 2))
-            return np.asarray(straight - mixed @ followed)
         return np.concatenate(
             (
                 np.concatenate((straight, mixed), axis=2),
@@ -146,11 +140,6 @@ class Space:
     ) -> tuple[FloatArray, FloatArray]:
         """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each."""
         model, r, (viscosity, _, air) = planar.model, self.section.bending_ratio, self.unit.damping
-        if viscosity and self.twist == "quasi-static" and r != 1.0:
-            raise ValueError(
-                "a twist without inertia is not resisted by the viscosity of bending: take "
-                "polar_inertia above zero, or damping as a ratio"
-            )
         x, (strain, once, upto) = model.points, _bases(self.shapes, model)
         (kappa, e, change), (kappa_dot, e_dot, change_dot) = model.bent(q), model.bent(q_dot)
         s = 1.0 / (1.0 + e)
@@ -162,7 +151,7 @@ class Space:
         curved = _times(kappa, angle)
         curved_dot = _times(kappa_dot, angle) + _times(kappa, angle_dot)
         viscous = viscosity * model.weights * evaluated(self.unit.bending, x)
-        if self.twist == "inertial":
+        if self.twists:
             flap = np.concatenate((flap, -_times(kappa, once)), axis=2)
             flap_dot = np.concatenate((flap_dot, -_times(kappa_dot, once)), axis=2)
             along = np.broadcast_to(strain, curved.shape)

@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_planar, require_steady_state
 from ...input_checks import points_of_beam, whole_number
-from ...methods.gyroscopic import reciprocal_modes
 from ...methods.orbit import Orbit
-from ...methods.system import Tangent
+from ...methods.system import Tangent, reciprocal_modes
 from ...profiles import evaluated, in_units
 from ...shape_functions import shape_functions
 from ...theory import BERNOULLI_EULER, Theory, require_theory
@@ -126,6 +125,7 @@ class AtConstantRate(Discretized):
 
     rate: float
     driven: ClassVar[bool] = False
+    stiff: ClassVar[bool] = False
 
     @property
     def push(self) -> FloatArray | None:

@@ -13,7 +13,7 @@ from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_out_of_plane, warn_if_rpm
 from ...blade import Blade
 from ...input_checks import points_of_beam, rotation_speed, whole_number
-from ...methods.gyroscopic import inverse_eigenvalues
+from ...methods.system import inverse_eigenvalues
 from ...profiles import in_units
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
@@ -68,18 +68,8 @@ class LinearModes:
 
         Only a mode whose tip moves more along the beam than across has u(L) = 1 instead.
         """
-        return self._displacement(x).imag
-
-    def axial_shapes(self, x: ArrayLike) -> FloatArray:
-        """Return the axial displacements u at `x` [m], (points, count), on the scale of `shapes`.
-
-        The Coriolis force puts them a quarter of a period from the deflections.
-        """
-        return self._displacement(x).real
-
-    def _displacement(self, x: ArrayLike) -> ComplexArray:
         at = points_of_beam("x", x, self.beam.length)
-        return self.model.integrated(self._slopes, at).T
+        return self.model.integrated(self._slopes, at).imag.T
 
 
 Plane = Literal["lag", "flap", "torsion"]

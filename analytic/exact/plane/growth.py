@@ -11,7 +11,6 @@ import numpy as np
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_planar, undamped
 from ...input_checks import not_negative, rotation_speed
-from ...lazily import linalg
 from ...methods.floquet import flow, normal_modes, reversible_monodromy
 from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
@@ -106,13 +105,10 @@ def grown(
     orbit = orbit.on(with_points_for(orbit.system, space.functions))
     steady = orbit.system.unloaded(orbit.frequency)
     motion = OutOfPlaneMotion(orbit, space, _modal(space, steady, ratio) if ratio else None)
-    try:
-        if motion.reversible:
-            matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
-        else:
-            matrix, exponent = flow(motion, steps)
-    except linalg.LinAlgError:
-        return Growth(np.inf, np.full(2 * _REPORTED, np.nan + 0j), "divergence", ("torsion 1",))
+    if motion.reversible:
+        matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
+    else:
+        matrix, exponent = flow(motion, steps)
     values, vectors = np.linalg.eig(matrix)
     frequencies, names, shares = _shares(space, steady, vectors)
     place = np.arange(len(shares)) @ shares

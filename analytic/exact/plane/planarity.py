@@ -57,8 +57,7 @@ class GrowthOutOfPlane:
     multipliers : ndarray (orbits, 8)
         Floquet multipliers over a period of the orbit, with the motion in the lowest modes.
     growth_rate : ndarray (orbits,)
-        Of the fastest growth [1/s], zero where nothing grows, infinite where the twist has no
-        inertia and buckles.
+        Of the fastest growth [1/s], zero where nothing grows.
     kind : tuple of str
         How it grows: "period doubling", multiplier below -1; "divergence", above 1; "sum
         resonance", a complex pair; "" where nothing grows.
@@ -175,14 +174,13 @@ def planar_stability(
     damping : float
         Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
     theory : Theory
-        Of the orbits, without shear: slices do not shear out of the plane. Without `trapeze` and
-        rotary inertia the twist has none.
+        Of the orbits, without shear: slices do not shear out of the plane.
 
     Raises
     ------
     ValueError
-        If the section out of the plane is unknown, or its torsion where that decides; if the blade
-        turns so fast that its flap modes are not resolved.
+        If the section out of the plane is unknown, or its torsion where that decides; if twist has
+        no inertia; if the blade turns so fast that its flap modes are not resolved.
     AmplitudeNotReachedError
         If an orbit does not exist, as in `periodic_orbits`.
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_out_of_plane
 from ...input_checks import points_of_beam
-from ...methods.gyroscopic import reciprocal_modes
+from ...methods.system import reciprocal_modes
 from ...settled import settled
 from ...theory import Theory
 from .continuum import SpaceContinuum

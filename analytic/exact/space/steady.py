@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,6 +103,7 @@ class SpaceBlade(AtConstantRate):
     load: tuple[tuple[float, ...], ...] = ()  # dead force and moment at the tip, over EI3/L², EI3/L
     lift: float = 0.0  # pull on all masses along the axis of rotation, over EI3/(m0 L³)
     mirror: bool = False
+    stiff: ClassVar[bool] = True  # twist has hardly any inertia, or none
 
     @cached_property
     def push(self) -> FloatArray | None:

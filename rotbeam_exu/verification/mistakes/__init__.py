@@ -1,8 +1,8 @@
 """The usual mistakes: before a large error is held against a code, what explains it is looked for.
 
 A mistake explains an error if the reference with this mistake leaves at most a fifth of it, and a
-third of what passes beyond the finest run's own error. A new one is a line or a function in the
-lists of `histories` or `tables`.
+third of what passes beyond the finest run's own error. A new one is a line or a function in
+`histories` or `tables`.
 """
 
 from __future__ import annotations
@@ -11,17 +11,18 @@ import warnings
 from collections.abc import Collection
 from dataclasses import replace
 
+import numpy as np
+
 from analytic.input_checks import RotbeamWarning
 from analytic.theory import Theory
 from analytic.threads import one_thread
 
-from ..cases import CASES, Asked
+from ..cases import CASES, Asked, Case
 from ..judgement import THRESHOLDS, Judgement, Progress, judged
-from ..outcomes import Outcome
+from ..outcomes import Finding, Outcome
 from ..references import reference
 from ..submission import Submission
-from .histories import RAMPS, SMALL, mistake_in_history
-from .mistake import Mistake, largest, most_left
+from .histories import RAMPS, SMALL, Mistake, largest, mistake_in_history
 from .tables import mistake_in_table
 
 
@@ -38,15 +39,16 @@ def mistakes_in(
         for done, name in enumerate(judgement.findings):
             if progress is not None:
                 progress(name, done, len(judgement.findings))
-            case, seen = CASES.get(name), judgement.histories.get(name)
+            case, seen = CASES[name], judgement.histories.get(name)
             quantity, finding = next(iter(judgement.findings[name].items()))
             most = most_left(THRESHOLDS[quantity], finding)
             try:
-                one = _in_tags(name, submission, judgement)
+                one = _in_tags(case, submission, judgement)
                 if one is None and seen is not None:
-                    run, true = seen.finest, seen.reference.history
-                    one = mistake_in_history(seen.case, run.time, run.q, true, ramps, most)
-                elif one is None and case is not None and case.asked is not Asked.HISTORY:
+                    run = seen.finest
+                    true = seen.reference.history(run.time)
+                    one = mistake_in_history(case, run.time, run.q, true, ramps, most)
+                elif one is None and case.asked is not Asked.HISTORY:
                     truth = reference(case, submission.declaration.theory)
                     one = mistake_in_table(case, submission.rows, truth, most)
             except (RuntimeError, ValueError):
@@ -55,39 +57,49 @@ def mistakes_in(
                 found.append(one)
             if one is not None and one.name in RAMPS:
                 ramps = (one.name,)  # a code has one ramp in all cases
-            elif one is None and seen and seen.case.is_spun_up and not seen.case.in_space:
+            elif one is None and seen and case.is_spun_up and not case.in_space:
                 off = largest(seen.differences[seen.finest]) > SMALL
                 ramps = () if off else ramps  # tried in vain
     return found
 
 
-def _in_tags(name: str, submission: Submission, judgement: Judgement) -> Mistake | None:
+def most_left(tolerance: float, finding: Finding) -> float:
+    """Return what a mistake may leave: a third of what passes, and the finest run's own error.
+
+    That error is known where meshes and steps have a limit; more than passes is not excused.
+    """
+    runs = finding.runs
+    own = abs(float(runs.errors[-1])) if runs is not None and np.isfinite(runs.limit) else 0.0
+    return tolerance / 3.0 + min(own, tolerance)
+
+
+def _in_tags(case: Case, submission: Submission, judgement: Judgement) -> Mistake | None:
     """Return that tags do not fit, where the results are better those of another theory.
 
     Of the theories whose references are shipped; slender beams are alike by all of them.
     """
-    case, mine = CASES.get(name), submission.declaration
-    outcomes = list(Outcome)
-    declared = judgement.outcome_of(name)
-    if case is None or declared not in (Outcome.AGREES, Outcome.DIFFERS):
+    mine, outcomes = submission.declaration, list(Outcome)
+    if judgement.outcome_of(case.name) not in (Outcome.AGREES, Outcome.DIFFERS):
         return None
-    best, fits = None, next(iter(judgement.findings[name].values()))
-    before = fits
+    found = {}
     for theory in case.theories:
-        if case.theory_of(theory) == case.theory_of(mine.theory):
-            continue
-        other = replace(submission, declaration=replace(mine, theory=theory))
-        (found,) = judged(other, cases={name: case}).findings.values()
-        finding = next(iter(found.values()))
-        rank = [(outcomes.index(one.outcome), abs(one.model_difference)) for one in (finding, fits)]
-        if finding.outcome.passed and rank[0] < rank[1]:
-            best, fits = theory, finding
-    if best is None or outcomes.index(fits.outcome) >= outcomes.index(declared):
+        if case.theory_of(theory) != case.theory_of(mine.theory):
+            other = replace(submission, declaration=replace(mine, theory=theory))
+            (of,) = judged(other, cases={case.name: case}).findings.values()
+            found[theory] = next(iter(of.values()))
+
+    def rank(theory: Theory) -> int:
+        return outcomes.index(found[theory].outcome)
+
+    best = min(found, key=rank, default=None)
+    if best is None or rank(best) >= outcomes.index(judgement.outcome_of(case.name)):
         return None
+    before = next(iter(judgement.findings[case.name].values()))
     said = f"the results are those of {_tagged(best)}, the tags say {_tagged(mine.theory)}"
     return Mistake(
-        case=name, name="tags", said=f"{said}: correct the tags of entry.toml, or the element",
-        before=abs(before.model_difference), after=abs(fits.model_difference),
+        case=case.name, name="tags",
+        said=f"{said}: correct the tags of entry.toml, or the element",
+        before=abs(before.model_difference), after=abs(found[best].model_difference),
     )  # fmt: skip
 
 

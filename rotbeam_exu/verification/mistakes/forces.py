@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
@@ -17,6 +18,27 @@ from ..cases import Case
 _FUNCTIONS = 12, 6
 _STEP = 0.08  # in units of 1/√(EI/(mL³))
 
+Force = Callable[[Any, FloatArray], tuple[ComplexArray, FloatArray]]
+"""From fields and rate to what is left out of the accelerations of the slope r', (samples, points),
+and of the clamp at a unit radius, (samples, 1)."""
+
+
+def _coriolis(at: Any, rate: FloatArray) -> tuple[ComplexArray, FloatArray]:
+    velocity = at.stretch_rate + 1j * at.stretch * (at.spin - rate)
+    return 2j * rate * at.turn * velocity, 0.0 * rate
+
+
+def _centrifugal(at: Any, rate: FloatArray) -> tuple[ComplexArray, FloatArray]:
+    return -(rate**2) * at.turn * at.stretch, -(rate**2)
+
+
+FORCES: dict[str, tuple[str, Force]] = {
+    "no Coriolis force": ("the Coriolis force is left out: add 2θ̇ × v in the turning frame",
+        _coriolis),
+    "no centrifugal force": ("the centrifugal force is left out: add its tension and θ̇² r",
+        _centrifugal),
+}  # fmt: skip
+
 
 class _Lacking(Continuum):
     """The exact beam without a force of the rotation.
@@ -24,41 +46,13 @@ class _Lacking(Continuum):
     Newton's method has the whole beam's tangent, and takes an iteration more for it.
     """
 
-    def lacking(self, at: Any, rate: FloatArray) -> ComplexArray:
-        """Return the acceleration (samples, points) of the slope r' that is left out."""
-        raise NotImplementedError
-
-    def of_clamp(self, rate: FloatArray) -> Any:
-        """Return what is left out of the clamp's own acceleration."""
-        return 0.0
+    force: Force
 
     def _fields(self, q: Any, q_dot: Any, q_ddot: Any, by: Driven) -> Any:
         at = super()._fields(q, q_dot, q_ddot, by)
-        w = self.blade.setting * np.asarray(by.rate)[..., None]
-        lacking = self.lacking(at, w) @ self._green + self.of_clamp(w) * self.outboard["mass"]
+        slope, clamp = self.force(at, self.blade.setting * np.asarray(by.rate)[..., None])
+        lacking = slope @ self._green + clamp * self.blade.hub * self.outboard["mass"]
         return at._replace(force=at.force - at.turn.conj() * lacking)
-
-
-class _NoCoriolis(_Lacking):
-    def lacking(self, at: Any, rate: FloatArray) -> ComplexArray:
-        velocity = at.stretch_rate + 1j * at.stretch * (at.spin - rate)
-        return np.asarray(2j * rate * at.turn * velocity)
-
-
-class _NoCentrifugal(_Lacking):
-    def lacking(self, at: Any, rate: FloatArray) -> ComplexArray:
-        return np.asarray(-(rate**2) * at.turn * at.stretch)
-
-    def of_clamp(self, rate: FloatArray) -> Any:
-        return -(rate**2) * self.blade.hub
-
-
-FORCES: dict[str, tuple[str, type[_Lacking]]] = {
-    "no Coriolis force": ("the Coriolis force is left out: add 2θ̇ × v in the turning frame",
-        _NoCoriolis),
-    "no centrifugal force": ("the centrifugal force is left out: add its tension and θ̇² r",
-        _NoCentrifugal),
-}  # fmt: skip
 
 
 def without(force: str, case: Case, time: FloatArray) -> FloatArray:
@@ -67,7 +61,8 @@ def without(force: str, case: Case, time: FloatArray) -> FloatArray:
     RuntimeError where Newton's method fails.
     """
     blade, rotation = case.blade, case.rotation
-    model = FORCES[force][1](blade.slenderness, *_FUNCTIONS, blade=blade.unit)
+    model = _Lacking(blade.slenderness, *_FUNCTIONS, blade=blade.unit)
+    model.force = FORCES[force][1]
     end, ramp = float(time[-1]), min(case.ramp_time, float(time[-1]))
     step = _STEP / blade.frequency_scale
     corners = [0.0, ramp] + [end] * (end > ramp)

@@ -3,30 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
-from functools import partial
-from typing import Any, cast
+from itertools import chain
+from typing import Any
 
 import numpy as np
 
-from analytic import SpinUp, spin_up_response
+from analytic import SpeedTable, spin_up_response
 from analytic.arrays import FloatArray
-from analytic.lazily import optimize
-from analytic.motion import SpeedChange
 
 from ..cases import Case
 from .forces import FORCES, without
-from .mistake import LEFT, Mistake, explaining, largest
 
 SMALL = 1e-2
 """Error of q(t) over max|q| below which no mistake is looked for: what passes."""
 
+LEFT = 0.2
+"""Share of the error that may be left by what explains it; meshes and steps have a share in it."""
+
 _SAMPLES = 1500
-_EARLIEST, _STEPS = 2.0, 401  # offsets that are tried [s], and how many
 _RAMP_WINDOW = 4.0  # of the ramp [s]: enough to tell one from another
-_SHORTENING = 0.581  # of a bent cantilever's first mode: the tip nears the clamp by this × q²/L
-_ROUGH = 0.3  # of max|q|: what a mistake leaves that may be it, in the first mode alone
 _LINEAR = 0.1  # |q|/L up to which a response is proportional to the speed, early in a ramp
 
 UNITS = {
@@ -36,47 +33,58 @@ UNITS = {
 }
 """Units of a speed or a frequency, and how many of them are 1 rad/s."""
 
+_COSINE = np.linspace(0.0, 1.0, 25)
+RAMPS = {
+    "a rate that grows linearly, without the sine of Eq. 1": (
+        (0.0, 0.01, 0.99, 1.0), (0.0, 0.01, 0.99, 1.0)
+    ),
+    "a rate that grows as half a cosine": (_COSINE, np.sin(0.5 * np.pi * _COSINE) ** 2),
+    "a rate that grows by the smoothstep 3s² - 2s³": ((0.0, 1.0), (0.0, 1.0)),
+}  # fmt: skip
+"""Ramps that are taken for Eq. 1's: times over T, and speeds over ω, of a `SpeedTable`."""
+
 
 @dataclass(frozen=True, kw_only=True)
-class _WrongRamp(SpeedChange, abstract=True):
-    """A ramp that is taken for Eq. 1's: same speed, same time, another way to it.
+class Mistake:
+    """An explanation of the error of a case.
 
-    `way` is, over s = t/T, the angle over ωT, the rate over ω and the acceleration over ω/T.
+    Attributes
+    ----------
+    case : str
+    name : str
+        Of the mistake, the same in all cases: "sign of q".
+    said : str
+        What seems to have happened, and what to do.
+    before, after : float
+        Errors with it and without it, both over the same scale.
     """
 
-    omega: float
-    ramp_time: float
-    start: float = 0.0
-    way: Callable[[Any], tuple[Any, Any, Any]]
+    case: str
+    name: str
+    said: str
+    before: float
+    after: float
 
-    @property
-    def shortest_wave(self) -> float:  # type: ignore[override]
-        """Period of the acceleration during the ramp, T [s]."""
-        return self.ramp_time
-
-    def _within(self, t: Any, derivative: int) -> Any:
-        scale = self.omega * self.ramp_time ** (1 - derivative)
-        return scale * self.way(t / self.ramp_time)[derivative]
+    def __str__(self) -> str:
+        return f"{self.said} (error {self.before:.1e}, without it {self.after:.1e})"
 
 
-def _linear(s: Any) -> tuple[Any, Any, Any]:
-    return 0.5 * s**2, s, s < 1.0
+def explaining(
+    case: str, before: float, most: float, suspects: Iterable[tuple[str, str, float]]
+) -> Mistake | None:
+    """Return the mistake that leaves least, if it leaves `most` at most and explains the error.
+
+    Suspects are names, sentences and what each leaves.
+    """
+    name, said, after = min(suspects, key=lambda one: one[2], default=("", "", np.inf))
+    if not after <= min(most, LEFT * before):
+        return None
+    return Mistake(case=case, name=name, said=said, before=before, after=after)
 
 
-def _half_cosine(s: Any) -> tuple[Any, Any, Any]:
-    sine = np.sin(np.pi * s)
-    return 0.5 * (s - sine / np.pi), np.sin(0.5 * np.pi * s) ** 2, 0.5 * np.pi * sine
-
-
-def _smoothstep(s: Any) -> tuple[Any, Any, Any]:
-    return s**3 - 0.5 * s**4, s**2 * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s)
-
-
-RAMPS: dict[str, Callable[..., _WrongRamp]] = {
-    "a rate that grows linearly, without the sine of Eq. 1": partial(_WrongRamp, way=_linear),
-    "a rate that grows as half a cosine": partial(_WrongRamp, way=_half_cosine),
-    "a rate that grows by the smoothstep 3s² - 2s³": partial(_WrongRamp, way=_smoothstep),
-}
+def largest(values: FloatArray) -> float:
+    """Return the largest absolute value."""
+    return float(np.abs(values).max())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -87,67 +95,44 @@ class _Seen:
     time: FloatArray
     q: FloatArray
     true: FloatArray
-    reference: Callable[[FloatArray], FloatArray]
 
-    def placed(self, left: Callable[[FloatArray], float]) -> float:
-        """Return what is left by a mistake that wants the tip's place along the clamp's line [m].
-
-        It is taken from the first mode, and where that explains much of a spin-up from theory.
-        """
-        blade, rotation = self.case.blade, cast("SpinUp", self.case.rotation)
-        hub = blade.unit.hub * blade.length
-        rough = left(hub + blade.length - _SHORTENING * self.true**2 / blade.length)
-        if rough > _ROUGH * largest(self.true) or not self.case.is_spun_up:
-            return rough
-        found = spin_up_response(
-            blade, rotation, self.time, tolerance=0.1 * SMALL, loads=self.case.loads
-        )
-        turned = (found.tip @ [1.0, 1.0j]) * np.exp(-1j * rotation.angle(self.time))
-        return left(turned.real)
+    @property
+    def scale(self) -> FloatArray:
+        """The largest |q| of the reference [m], of each component."""
+        return np.asarray(np.abs(self.true).max(axis=0))
 
 
 _Suspects = Iterator[tuple[str, str, float]]
-"""Name, sentence, and the largest |q| [m] that the mistake leaves unexplained."""
+"""Name, sentence, and the largest |q| over the scale that the mistake leaves unexplained."""
 
 
 def mistake_in_history(
     case: Case,
     time: FloatArray,
     q: FloatArray,
-    reference: Callable[[FloatArray], FloatArray],
+    true: FloatArray,
     ramps: Collection[str] = RAMPS,
     most: float = SMALL / 3.0,
 ) -> Mistake | None:
     """Return the mistake that explains the error of a history, if there is one.
 
-    Times [s] and q [m], in space lag, flap and twist, are as handed in; `reference` gives q at
-    times within the case. `ramps` are the wrong ones to try, keys of RAMPS; each takes a second or
-    two. A mistake leaves `most` at most, over max|q|.
+    Times [s] and q [m], in space lag, flap and twist, are as handed in, and `true` is the reference
+    there. `ramps` are the wrong ones to try, keys of RAMPS; each takes a second or two. A mistake
+    leaves `most` at most, over max|q|.
     """
     every = max(1, time.size // _SAMPLES)
-    time, q = time[::every], q[::every]
-    true = reference(time)
-    scale = np.abs(true).max(axis=0)
-    before = largest((q - true) / scale)
+    seen = _Seen(case=case, time=time[::every], q=q[::every], true=true[::every])
+    before = largest((seen.q - seen.true) / seen.scale)
     if not before > SMALL:
         return None
     if case.in_space:
-        tried = (
-            (name, said, largest((q / factors - true) / scale))
-            for name, (said, factors) in _signs_of(case).items()
-        )
-        return explaining(case.name, before, most, tried)
-    seen = _Seen(case=case, time=time, q=q, true=true, reference=reference)
-    found = explaining(
-        case.name, before, most,
-        ((name, said, left / scale) for of in SUSPECTS for name, said, left in of(seen)),
-    )  # fmt: skip
+        return explaining(case.name, before, most, _factors(seen))
+    found = explaining(case.name, before, most, chain(_factors(seen), _inertial(seen)))
     if found is not None or not case.is_spun_up:
         return found
     for name, said, left in _unit_of_speed(seen):
-        return Mistake(case=case.name, name=name, said=said, before=before, after=left / scale)
-    lacking = ((name, said, left / scale) for name, said, left in _forces(seen))
-    return explaining(case.name, before, most, lacking) or _ramp(seen, ramps, most)
+        return Mistake(case=case.name, name=name, said=said, before=before, after=left)
+    return explaining(case.name, before, most, _forces(seen)) or _ramp(seen, ramps, most)
 
 
 TWISTED = "twist is the other way round: it turns the chord from the direction of rotation up"
@@ -161,82 +146,38 @@ SIGNS = {
 """Factors of lag, flap and twist by which a tip in space may be off, and what is said of them."""
 
 
-def _signs_of(case: Case) -> dict[str, tuple[str, tuple[float, ...]]]:
-    """Return SIGNS, and the mirror in which a blade moves that is built or kicked wrongly."""
-    name, said = "sign of the blade's twist", f"the blade's {TWISTED}"
-    if case.kick:
-        name = "sign of the kick"
-        said = "the kick is the other way round: it goes up, along the axis"
-    return {**SIGNS, name: (said, (1.0, -1.0, -1.0))}
-
-
 def _factors(seen: _Seen) -> _Suspects:
-    """Yield the best of all factors on q, by its name if it has one."""
-    factor = float(seen.q @ seen.true / (seen.true @ seen.true))
-    left = largest(seen.q - factor * seen.true) / max(abs(factor), 1e-300)
-    for name, said, exact in (
-        ("sign of q", "q has the wrong sign: it is negative while the rotation speeds up, Eq. 16",
+    """Yield factors of q; in space also the mirror of a blade that is built or kicked wrongly."""
+    known: dict[str, tuple[str, Any]] = {
+        "sign of q": ("q has the wrong sign: it is negative while the rotation speeds up, Eq. 16",
             -1.0),
-        ("q over L", "q is over L: hand it in in metres", 1.0 / seen.case.blade.length),
-        ("millimetres", "q is in millimetres: hand it in in metres", 1e3),
-    ):  # fmt: skip
-        if abs(factor / exact - 1.0) < LEFT:
-            yield name, said, left
-            return
-    if factor:
-        yield "factor", f"q is {factor:.5g} times the reference throughout", left
-
-
-def _offset(seen: _Seen) -> _Suspects:
-    """Yield the best offset of time; before the start a spin-up is at rest."""
-    case, q = seen.case, seen.q
-
-    def left(offset: float) -> float:
-        moved = seen.time - offset
-        inside = (moved >= 0.0) & (moved <= case.duration)
-        rest = q[moved < 0.0] if case.is_spun_up else np.empty(0)
-        return largest(np.concatenate((q[inside] - seen.reference(moved[inside]), rest)))
-
-    tried = np.linspace(-_EARLIEST, _EARLIEST, _STEPS)
-    best = float(tried[np.argmin([left(offset) for offset in tried])])
-    width = tried[1] - tried[0]
-    found = optimize.minimize_scalar(left, bounds=(best - width, best + width), method="bounded")
-    word = "late" if found.x > 0.0 else "early"
-    begin = "the ramp begins at time zero" if case.is_spun_up else "begin where the orbit begins"
-    yield "time offset", f"q is {abs(found.x):.4g} s {word} throughout: {begin}", float(found.fun)
+        "q over L": ("q is over L: hand it in in metres", 1.0 / seen.case.blade.length),
+        "millimetres": ("q is in millimetres: hand it in in metres", 1e3),
+    }  # fmt: skip
+    if seen.case.in_space:
+        name, said = "sign of the blade's twist", f"the blade's {TWISTED}"
+        if seen.case.kick:
+            name = "sign of the kick"
+            said = "the kick is the other way round: it goes up, along the axis"
+        known = {**SIGNS, name: (said, (1.0, -1.0, -1.0))}
+    for name, (said, factor) in known.items():
+        yield name, said, largest((seen.q / factor - seen.true) / seen.scale)
 
 
 def _inertial(seen: _Seen) -> _Suspects:
     """Yield q taken across a line that does not turn: the tip's position, or its displacement."""
-    blade, angle = seen.case.blade, seen.case.rotation.angle(seen.time)
-    reach = (1.0 + blade.unit.hub) * blade.length
-
-    def left(along: FloatArray) -> float:
-        off = seen.q - np.sin(angle) * along - np.cos(angle) * seen.true
-        return min(largest(off), largest(off + np.sin(angle) * reach))
-
+    case = seen.case
+    if not case.is_spun_up or largest(seen.q) < 0.5 * case.blade.length:
+        return  # a tip that turns goes farther, which a theory of a second is needed for
+    rotation: Any = case.rotation
+    found = spin_up_response(
+        case.blade, rotation, seen.time, tolerance=0.1 * SMALL, loads=case.loads
+    )
+    reach = case.blade.blade.hub_radius + case.blade.length
+    off = seen.q - found.tip[:, 1]
+    moved = off + reach * np.sin(rotation.angle(seen.time))
     said = "q is taken along an axis that does not turn: turn it by -θ(t), q = y cos θ - x sin θ"
-    yield "inertial axis", said, seen.placed(left)
-
-
-def _angle(seen: _Seen) -> _Suspects:
-    """Yield the tip's angle from the clamp's line: in degrees, radians, or times the length."""
-    length = seen.case.blade.length
-    for name, said, unit in (
-        ("degrees", "q is the tip's angle in degrees", 180.0 / math.pi),
-        ("radians", "q is the tip's angle in radians", 1.0),
-        ("arc", "q is the tip's angle times the length", length),
-    ):
-
-        def left(along: FloatArray, unit: float = unit) -> float:
-            return largest(seen.q / unit - np.arctan2(seen.true, along)) * length
-
-        remedy = "hand in the distance across the clamp's line, Eq. 16"
-        yield name, f"{said}: {remedy}", seen.placed(left)
-
-
-SUSPECTS = _factors, _offset, _inertial, _angle
-"""Mistakes of any history; mistakes of spin-ups are tried if none of these explains it."""
+    yield "inertial axis", said, min(largest(off / seen.scale), largest(moved / seen.scale))
 
 
 def _unit_of_speed(seen: _Seen) -> _Suspects:
@@ -259,7 +200,8 @@ def _unit_of_speed(seen: _Seen) -> _Suspects:
             (1.0 / unit, f"the speed in rad/s was taken for {short}"),
         ):
             if abs(factor / size - 1.0) < LEFT:
-                yield name, f"{said}: early on q is {factor:.3g} times the reference", left
+                found = f"{said}: early on q is {factor:.3g} times the reference"
+                yield name, found, left / float(seen.scale)
                 return
 
 
@@ -267,9 +209,10 @@ def _forces(seen: _Seen) -> _Suspects:
     """Yield spin-ups without a force of the rotation."""
     for name, (said, _) in FORCES.items():
         try:
-            yield name, said, largest(seen.q - without(name, seen.case, seen.time))
+            q = without(name, seen.case, seen.time)
         except RuntimeError:
             continue
+        yield name, said, largest((seen.q - q) / seen.scale)
 
 
 def _ramp(seen: _Seen, ramps: Collection[str], most: float) -> Mistake | None:
@@ -283,7 +226,9 @@ def _ramp(seen: _Seen, ramps: Collection[str], most: float) -> Mistake | None:
         return None
     tried = []
     for name in ramps:
-        wrong = RAMPS[name](omega=case.rotation.omega, ramp_time=case.ramp_time)
+        times, speeds = map(np.array, RAMPS[name])
+        end, omega = case.ramp_time, case.rotation.omega
+        wrong = SpeedTable((end * times).tolist(), (omega * speeds).tolist())
         try:
             made = spin_up_response(
                 case.blade, wrong, time, tolerance=0.1 * SMALL, loads=case.loads

@@ -34,8 +34,9 @@ from .tables import (
     TOO_FEW,
     Column,
     asked,
-    bounded,
     digits,
+    not_negative,
+    positive,
     rounding,
     rows_of,
     sheet_of,
@@ -43,9 +44,7 @@ from .tables import (
     written,
 )
 
-_positive = bounded(lambda value: value > 0.0, "must be positive, got {}; it is in rad/s")
-_not_negative = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
-_ROUNDING = Column("rounding", _not_negative, "rad/s", needed=False)
+_ROUNDING = Column("rounding", not_negative, "rad/s", needed=False)
 _VIBRATION = re.compile(r"m([0-9]{1,9})_w([0-9.]{1,9})\.csv")
 """Name of a free vibration's file: elements, and speed [rad/s]."""
 
@@ -206,7 +205,7 @@ def _columns(case: Case) -> tuple[Column, ...]:
         places.append(Column("number", asked(range(1, case.count + 1))))
     if case.asked is Asked.STEADY:
         return (*places, *(replace(one, measured=True) for one in runs.TIP_COLUMNS), FAILURE)
-    return (*places, Column("frequency", _positive, "rad/s", measured=True), _ROUNDING, FAILURE)
+    return (*places, Column("frequency", positive, "rad/s", measured=True), _ROUNDING, FAILURE)
 
 
 def _rows(folder: Path, file: str, case: Case, faults: Faults) -> list[Row]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import difflib
 import os
 import re
-from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -21,18 +20,11 @@ _VARIES = re.compile(
 )
 """Parts that vary between sentences of one kind: quotations from a file, and numbers."""
 
-_MOST_FILES = 10
-"""Files in which a fault of one kind is told for each; faults in others are counted."""
-
 _SHOWN = 40
 """Letters of a faulty cell that a sentence repeats."""
 
-
 LARGEST = 100_000_000
 """Bytes of a file that is read; a history of a million samples has less."""
-
-LARGEST_TOML = 32_000
-"""Bytes of entry.toml."""
 
 OUTSIDE = "is a link that leads out of the folder: put what it names in its place"
 
@@ -51,45 +43,28 @@ class Fault:
 
 
 class Faults:
-    """Faults as they are found: the first of a kind in a file, and how many more there are.
-
-    Sentences of one kind differ in numbers and quotations only.
-    """
+    """Faults as they are found; sentences of one kind differ in numbers and quotations only."""
 
     def __init__(self) -> None:
-        self._first: dict[tuple[str, str], Fault] = {}
-        self._count: Counter[tuple[str, str]] = Counter()
-        self._files: dict[str, list[str]] = {}
+        self._alike: dict[tuple[str, str], list[Fault]] = {}
 
     def __bool__(self) -> bool:
-        return bool(self._first)
+        return bool(self._alike)
 
     def add(self, file: str, said: str, line: int | None = None) -> None:
-        """Keep a fault, or count it."""
-        kind = _VARIES.sub("#", said)
-        files = self._files.setdefault(kind, [])
-        if file not in files and len(files) < _MOST_FILES:
-            files.append(file)
-        key = kind, file if file in files else files[-1]
-        self._first.setdefault(key, Fault(file=file, said=said, line=line))
-        self._count[key] += 1
-
-    def extend(self, file: str, found: Iterable[tuple[str, int | None]]) -> bool:
-        """Keep faults of one file, each with its line, and return whether there are any."""
-        several = list(found)
-        for said, line in several:
-            self.add(file, said, line)
-        return bool(several)
+        """Keep a fault."""
+        fault = Fault(file=file, said=said, line=line)
+        self._alike.setdefault((_VARIES.sub("#", said), file), []).append(fault)
 
     def of(self, file: str) -> bool:
         """Return whether a file has one."""
-        return any(fault.file == file for fault in self._first.values())
+        return any(file == other for _, other in self._alike)
 
     def told(self) -> tuple[Fault, ...]:
-        """Return the first of each kind, in the order found, with the count of those alike."""
+        """Return the first of each kind in a file, in the order found, with the count of others."""
         return tuple(
-            replace(fault, said=fault.said + several(self._count[key]))
-            for key, fault in self._first.items()
+            replace(first, said=first.said + several(1 + len(others)))
+            for first, *others in self._alike.values()
         )
 
 
@@ -149,7 +124,7 @@ def files_in(folder: Path, name: str) -> list[str]:
     return [f"{name}/{printable(path.name)}" for path in paths]
 
 
-def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
+def content_of(folder: Path, file: str) -> bytes:
     """Return the bytes of a regular file below a folder.
 
     Raises
@@ -163,24 +138,22 @@ def content_of(folder: Path, file: str, largest: int = LARGEST) -> bytes:
     if place is None:
         raise ValueError(OUTSIDE)
     path = folder / place
-    if path.is_dir():
-        raise ValueError("is a folder: put a file in its place")
     if path.exists() and not path.is_file():
-        raise ValueError("is no regular file but a pipe or a device: put a file in its place")
+        raise ValueError("is a folder, a pipe or a device: put a file in its place")
     with path.open("rb") as opened:
-        content = opened.read(largest + 1)
-    if len(content) > largest:
+        content = opened.read(LARGEST + 1)
+    if len(content) > LARGEST:
         raise ValueError(
-            f"has more than {largest:,} bytes: hand in what the kit asks for, and sample less often"
+            f"has more than {LARGEST:,} bytes: hand in what the kit asks for, and sample less often"
         )
     return content
 
 
-def text_of(folder: Path, file: str, faults: Faults, largest: int = LARGEST) -> str | None:
+def text_of(folder: Path, file: str, faults: Faults) -> str | None:
     """Return the text of a file, its lines ended by LF; None, and why, where it is no text."""
     try:
         # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
-        text = content_of(folder, file, largest).decode("utf-8-sig")
+        text = content_of(folder, file).decode("utf-8-sig")
         if "\0" in text:
             raise ValueError("is not text (it holds zero bytes): write it as UTF-8")
     except UnicodeDecodeError as error:

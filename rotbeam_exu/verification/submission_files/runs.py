@@ -23,8 +23,9 @@ from .tables import (
     TOO_FEW,
     Column,
     Sheet,
-    bounded,
     digits,
+    not_negative,
+    positive,
     rounding,
     rows_of,
     sheet_of,
@@ -54,10 +55,6 @@ _NAME = re.compile(
 _ROUNDED = 1e-2
 """Relative distance of a step or tolerance from that in the name of its file."""
 
-_positive = bounded(lambda value: value > 0.0, "must be positive, in seconds, got {}")
-_tolerance = bounded(lambda value: 0.0 < value < 1.0, "must be between 0 and 1, got {}")
-_cost = bounded(lambda value: value >= 0.0, "must not be negative, got {}")
-
 
 def _history(_: str, cell: str) -> str:
     """Return the name of a history's file."""
@@ -74,9 +71,10 @@ def _history(_: str, cell: str) -> str:
 
 COLUMNS = (
     Column("file", _history), Column("elements", whole),
-    Column("step", _positive, "s", needed=False), Column("tolerance", _tolerance, needed=False),
+    Column("step", positive, "s", needed=False), Column("tolerance", positive, needed=False),
     Column("dof", whole, needed=False),
-    Column("wall_s", _cost, "s", needed=False), Column("cpu_s", _cost, "s", needed=False),
+    Column("wall_s", not_negative, "s", needed=False),
+    Column("cpu_s", not_negative, "s", needed=False),
     FAILURE, Column("remark", text, needed=False),
 )  # fmt: skip
 
@@ -117,25 +115,23 @@ def _listed(root: Path, faults: Faults) -> Iterator[dict[str, Any]]:
     sheet = sheet_of(root, FILE, COLUMNS, faults)
     seen: dict[tuple[str, int, float], int] = {}
     first: dict[str, str] = {}
-    for line, cells, row in rows_of(sheet, faults) if sheet else ():
-        case, _, name = row["file"].partition("/")
+    for line, _, row in rows_of(sheet, faults) if sheet else ():
+        case, name = row["file"].split("/")
         elements, kind, size = _NAME.fullmatch(name).groups()  # type: ignore[union-attr]
         of, other = ("step", "tolerance") if kind == "h" else ("tolerance", "step")
-        wrong = []
-        if row["elements"] != int(elements):
-            wrong.append(f"elements are {cells['elements']}, the file's name says {int(elements)}")
-        if of not in row or other in row:
-            wrong.append(f"there must be a {of} and no {other}, as the file's name says")
-        elif abs(row[of] - float(size)) > _ROUNDED * float(size):
-            wrong.append(f"{of} is {cells[of]}, the file's name says {float(size):g}")
-        elif first.setdefault(case, of) != of:
-            wrong.append(f"a {of} stands beside a {other} of {case}, which no fit takes together")
-        wrong = [f"{said}: correct one of them" for said in wrong]
         place = case, row["elements"], row.get(of, 0.0)
-        if not wrong and seen.setdefault(place, line) != line:
-            wrong = [f"the same case, mesh and {of} stand in line {seen[place]}: keep one"]
-        if not faults.extend(FILE, [(said, line) for said in wrong]):
+        alike = math.isclose(place[2], float(size), rel_tol=_ROUNDED) and other not in row
+        if row["elements"] != int(elements) or not alike:
+            named = f"{int(elements)} elements and a {of} of {float(size):g}, the row does not"
+            said = f"the file's name says {named}: correct one of them"
+        elif first.setdefault(case, of) != of:
+            said = f"a {of} stands beside a {other} of {case}, which no fit takes together"
+        elif seen.setdefault(place, line) != line:
+            said = f"the same case, mesh and {of} stand in line {seen[place]}: keep one"
+        else:
             yield row | {"case": case}
+            continue
+        faults.add(FILE, said, line)
 
 
 def history_of(
@@ -162,7 +158,9 @@ def history_of(
         tip = np.stack([columns[name] for name in case.columns])
         farthest = tip[np.abs(tip).argmax(axis=0), np.arange(tip.shape[1])]
         unfit += _unfit(columns["time"], farthest, case)
-    if faults.extend(file, [(said, None if k is None else sheet.lines[k]) for said, k in unfit]):
+    for said, k in unfit:
+        faults.add(file, said, None if k is None else sheet.lines[k])
+    if unfit:
         return None
     within = columns["time"] <= case.duration
     errors = np.array([_rounding(columns, name, most, step) for name in case.columns])

@@ -20,9 +20,8 @@ import numpy as np
 
 from .faults import Faults, near, shown, text_of
 
-MOST_LINES = 2_000_000
 LONGEST_LINE = 10_000
-"""Letters of a line, and lines of a table: beyond them is no history and no sentence."""
+"""Letters of a line: beyond them is no row and no sentence."""
 
 DIGITS, LEAST_DIGITS = 8, 5
 """Digits of a number that lose nothing, and that it has at least: four in the time alone cost
@@ -33,6 +32,7 @@ TOO_FEW = f"digits, at least {LEAST_DIGITS} are needed and {DIGITS} lose nothing
 
 _NUMBER = re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _FORTRAN = re.compile(r"[-+]?[0-9]*(\.[0-9]*)?[dD][-+]?[0-9]+")
+_NOT_FINITE = "nan", "inf", "infinity", "nan(ind)"
 _HEADER = re.compile(r"(?P<name>[^\[\]()]*?)\s*(?:[\[(](?P<unit>.*)[\])])?")
 _SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
 _SAME = 1e-6
@@ -49,15 +49,13 @@ def text(_name: str, cell: str) -> str:
 
 def number(name: str, cell: str) -> float:
     """Return a finite number."""
-    if _NUMBER.fullmatch(cell):
-        if math.isfinite(float(cell)):
-            return float(cell)
-        why = "is too large a number"
-    elif not cell:
+    if _NUMBER.fullmatch(cell) and math.isfinite(float(cell)):
+        return float(cell)
+    if not cell:
         raise ValueError(f"{name}: a cell is empty: write a number")
-    elif _FORTRAN.fullmatch(cell):
+    if _FORTRAN.fullmatch(cell):
         why = "has Fortran's exponent D: write E"
-    elif cell.lower().lstrip("+-") in ("nan", "inf", "infinity", "-nan(ind)", "nan(ind)"):
+    elif _NUMBER.fullmatch(cell) or cell.lower().lstrip("+-") in _NOT_FINITE:
         why = "is not finite: hand in what the code computed, or its failure"
     else:
         why = "is no number: write it as C does, -1.25e-3"
@@ -72,16 +70,20 @@ def whole(name: str, cell: str) -> int:
     return int(value)
 
 
-def bounded(holds: Callable[[float], bool], said: str) -> Kind:
-    """Return the kind of numbers for which something holds; {} in its sentence is the cell."""
+def positive(name: str, cell: str) -> float:
+    """Return a number above zero."""
+    value = number(name, cell)
+    if value <= 0.0:
+        raise ValueError(f"{name} must be positive, got {cell}")
+    return value
 
-    def read(name: str, cell: str) -> float:
-        value = number(name, cell)
-        if not holds(value):
-            raise ValueError(f"{name} {said.format(cell)}")
-        return value
 
-    return read
+def not_negative(name: str, cell: str) -> float:
+    """Return a number of zero or more."""
+    value = number(name, cell)
+    if value < 0.0:
+        raise ValueError(f"{name} must not be negative, got {cell}")
+    return value
 
 
 def asked(values: Sequence[float]) -> Kind:
@@ -135,36 +137,31 @@ def sheet_of(folder: Path, file: str, columns: Sequence[Column], faults: Faults)
     content = text_of(folder, file, faults)
     if content is None:
         return None
-    few = content.count("\n") <= MOST_LINES
     numbered = [
         (line, row)
-        for line, row in enumerate(content.split("\n") if few else (), 1)
+        for line, row in enumerate(content.split("\n"), 1)
         if row and not row.isspace() and not row.lstrip().startswith("#")
     ]
-    too_many = [(f"has more than {MOST_LINES:,} lines: sample less often", None)]
-    if faults.extend(file, _wrong_with(numbered, columns) if few else too_many):
-        return None
-    (_, title), *rest = numbered
-    known = {column.name: column for column in columns}
-    header = [known[_cell_of_header(cell)[0]] for cell in title.split(",")]
-    return Sheet(file, header, [row for _, row in rest], [line for line, _ in rest])
-
-
-def _wrong_with(
-    numbered: list[tuple[int, str]], columns: Sequence[Column]
-) -> list[tuple[str, int | None]]:
-    """Return the fault of a table as a whole, and its line."""
     wanted = ",".join(column.name for column in columns if column.needed)
     if not numbered:
-        return [(f"is empty: begin with the header {wanted}", None)]
+        faults.add(file, f"is empty: begin with the header {wanted}")
+        return None
     for line, row in numbered:
         if len(row) > LONGEST_LINE:
             many = f"has {len(row):,} letters, more than {LONGEST_LINE:,}"
-            return [(f"{many}: keep to {wanted}", line)]
-    wrong = _wrong_header(numbered[0][1], columns, wanted)
-    if not wrong and len(numbered) == 1:
+            faults.add(file, f"{many}: keep to {wanted}", line)
+            return None
+    (first, title), *rest = numbered
+    wrong = _wrong_header(title, columns, wanted)
+    if not (wrong or rest):
         wrong = ["has a header and no rows below it"]
-    return [(said, numbered[0][0]) for said in wrong]
+    for said in wrong:
+        faults.add(file, said, first)
+    if wrong:
+        return None
+    known = {column.name: column for column in columns}
+    header = [known[_cell_of_header(cell)[0]] for cell in title.split(",")]
+    return Sheet(file, header, [row for _, row in rest], [line for line, _ in rest])
 
 
 def _cell_of_header(cell: str) -> tuple[str, str]:
@@ -211,7 +208,9 @@ def rows_of(sheet: Sheet, faults: Faults) -> Iterator[tuple[int, dict[str, str],
             faults.add(sheet.file, f"is no row of CSV: {error}", line)
             continue
         if len(cells) != len(sheet.columns):
-            faults.add(sheet.file, _columns_fault(row, len(cells), len(sheet.columns)), line)
+            has = f"has {len(cells)} cell{'s' * (len(cells) > 1)}, the header {len(sheet.columns)}"
+            remedy = "write the row whole, with commas between cells and decimal points"
+            faults.add(sheet.file, f"{has}: {remedy}", line)
             continue
         pairs = list(zip(sheet.columns, map(str.strip, cells), strict=True))
         failed = any(cell and column is FAILURE for column, cell in pairs)
@@ -226,20 +225,6 @@ def rows_of(sheet: Sheet, faults: Faults) -> Iterator[tuple[int, dict[str, str],
                 right = False
         if right:
             yield line, {column.name: cell for column, cell in pairs}, values
-
-
-def _columns_fault(row: str, cells: int, wanted: int) -> str:
-    """Return the sentence on a row of too few or too many cells."""
-    if cells == 1:
-        for mark, name in _SEPARATORS.items():
-            if mark in row.strip():
-                return f"cells are separated by {name}: separate them by commas"
-    if ";" in row:
-        return "cells are separated by semicolons: separate them by commas, with decimal points"
-    return (
-        f"has {cells} {'cell' if cells == 1 else 'cells'}, the header {wanted}: "
-        "write the row whole, and decimals with a point"
-    )
 
 
 def digits(cell: str) -> int:
