@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 import reprlib
+from collections.abc import Iterable
 from numbers import Integral, Real
 
 import numpy as np
@@ -177,6 +178,24 @@ def finite_values(name: str, values: object, unit: str = "") -> FloatArray:
     return array
 
 
+def require_ascending(name: str, values: Iterable[float], unit: str, where: str = "") -> None:
+    """Refuse numbers of which one is not above the one before it."""
+    for before, after in itertools.pairwise(values):
+        if after <= before:
+            raise ValueError(
+                f"{name} must ascend, but {after:g} {unit} comes after {before:g} {unit}: sort "
+                f"them, and {where}set equal ones apart"
+            )
+
+
+def times_from_rest(times: object) -> FloatArray:
+    """Return the times of a response as a 1-d array; refuse those before 0 or out of order."""
+    time = finite_values("times", times, "s")
+    if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
+        raise ValueError("times must ascend from 0 s on, for the blade is at rest before")
+    return time
+
+
 def points_of_beam(name: str, x: object, length: float) -> FloatArray:
     """Return material points `x` [m], one or a sequence, over the `length`: (points,) in 0 .. 1.
 
@@ -210,7 +229,11 @@ def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
         if not isinstance(pair, tuple | list | np.ndarray) or len(pair) != 2:
             raise ValueError(f"{name}[{k}] must be a station (x, value), got {pair!r}")
         pairs.append((_entry(f"{name}[{k}]", pair[0], "m"), _entry(f"{name}[{k}]", pair[1], unit)))
-    _require_ascending(name, [x for x, _ in pairs])
+    if len(pairs) < 2:
+        raise ValueError(
+            f"{name} has one station, at {pairs[0][0]:g} m: give two at least, or a number"
+        )
+    require_ascending(f"the stations of {name}", [x for x, _ in pairs], "m", "where it steps, ")
     return tuple(pairs)
 
 
@@ -221,19 +244,3 @@ def _entry(name: str, value: object, unit: str = "") -> float:
     if isinstance(value, float) and math.isnan(value):
         raise ValueError(f"{name} is NaN: leave the station out if its cell is empty")
     return finite_number(name, value, unit)
-
-
-def _require_ascending(name: str, at: list[float]) -> None:
-    if len(at) < 2:
-        raise ValueError(f"{name} has one station, at {at[0]:g} m: give two at least, or a number")
-    for before, x in itertools.pairwise(at):
-        if x == before:
-            raise ValueError(
-                f"two stations of {name} are at {x:g} m: keep one, or set them apart where the "
-                f"section steps"
-            )
-        if x < before:
-            raise ValueError(
-                f"the stations of {name} must ascend, but {x:g} m comes after {before:g} m: "
-                f"sort them"
-            )

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import FloatArray
-from .input_checks import finite_values, positive, rotation_speed
+from .input_checks import finite_values, positive, require_ascending, rotation_speed
 from .lazily import interpolate
 from .motion import SpeedChange
 
@@ -145,14 +145,9 @@ class SpeedTable(SpeedChange):
                 f"a table has a speed at each of two instants or more, got {times.size} times and "
                 f"{speeds.size} speeds"
             )
-        back = np.flatnonzero(np.diff(times) <= 0.0)
-        if times[0] != 0.0 or back.size:
-            where = (
-                f"{times[back[0] + 1]:g} s comes after {times[back[0]]:g} s: sort them, each once"
-                if back.size
-                else f"the first is {times[0]:g} s: subtract it from all"
-            )
-            raise ValueError(f"times must ascend from 0 s on, but {where}")
+        if times[0] != 0.0:
+            raise ValueError(f"times must begin at 0 s, got {times[0]:g} s: subtract it from all")
+        require_ascending("times", times, "s")
         for speed in speeds:
             rotation_speed(speed, "speeds")
         self._keep(times=tuple(times.tolist()), speeds=tuple(speeds.tolist()))

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
 from ..blade_functions import blade_functions
-from ..input_checks import finite_values, flag, points_of_beam
+from ..input_checks import flag, points_of_beam, times_from_rest
 from ..lazily import integrate
 from ..motion import SpeedChange, require_ramp
 from ..threads import one_thread
@@ -106,9 +106,7 @@ def linear_response(
     foreshortening = flag("foreshortening", foreshortening)
     require_undamped(beam, "the linear frame has no damping")
     warn_if_rpm(beam, spin_up.fastest)
-    time = finite_values("times", times, "s")
-    if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
-        raise ValueError("times must ascend from 0 s on, for the blade is at rest before")
+    time = times_from_rest(times)
     along = points_of_beam("points", points, beam.length)
     blade = beam.unit
     of, scale = blade_functions(blade, _FUNCTIONS), beam.frequency_scale

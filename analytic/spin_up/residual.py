@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -84,18 +84,19 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
     viscosity, _, air = blade.damping
     damping = viscosity * of.bending + air * along.T @ (dx[:, None] * along)
 
-    def solve(w: float) -> FloatArray:
-        """Return the modes at w̄, in the order of `ModesAt`."""
-        frequencies, modes = of.modes(w, count)
-        decay = 0.5 * np.sum(modes * (damping @ modes), axis=0)
-        force, tip = blade.setting * of.euler @ modes, of.tip @ modes
-        return np.concatenate([frequencies, force, tip, decay])
+    def solve(x: FloatArray) -> Any:
+        """Return the modes at speeds from x = -1 to 1, one in a row, in the order of `ModesAt`."""
+        rows = []
+        for w in 0.5 * top * (1.0 + x):
+            frequencies, modes = of.modes(w, count)
+            decay = 0.5 * np.sum(modes * (damping @ modes), axis=0)
+            force, tip = blade.setting * of.euler @ modes, of.tip @ modes
+            rows.append(np.concatenate([frequencies, force, tip, decay]))
+        return np.array(rows)
 
     points = _FEWEST
     while True:
-        coefficients = chebyshev.chebinterpolate(
-            lambda x: np.array([solve(0.5 * top * (1.0 + at)) for at in x]), points - 1
-        )
+        coefficients: Any = chebyshev.chebinterpolate(solve, points - 1)
         size = np.abs(coefficients).max(axis=0) + np.finfo(float).tiny
         rest = float((np.abs(coefficients[-2:]).max(axis=0) / size).max())
         if rest < _SETTLED:

@@ -155,7 +155,7 @@ def test_fastest_sees_what_is_above_both_ends():
         (lambda: SpinUp(omega=-6.0, ramp_time=3.0), "omega must not be negative, .* mirror image"),
         (lambda: FourierRamp(omega=1.0, ramp_time=1.0, start=-1.0), "start must not be negative"),
         (lambda: SpeedTable([0.0, 1.0], [1.0]), "got 2 times and 1 speeds"),
-        (lambda: SpeedTable([1.0, 2.0], [1.0, 2.0]), "the first is 1 s: subtract it"),
+        (lambda: SpeedTable([1.0, 2.0], [1.0, 2.0]), "begin at 0 s, got 1 s: subtract it"),
         (lambda: SpeedTable([0.0, 2.0, 1.0], [1.0, 2.0, 3.0]), "1 s comes after 2 s"),
         (lambda: SpeedTable([0.0, 2.0], [1.0, -2.0]), "speeds must not be negative"),
     ],

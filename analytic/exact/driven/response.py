@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray, few_at_once
 from ...beam import AnyBlade, require_planar, warn_if_rpm
-from ...input_checks import finite_number, finite_values, points_of_beam, positive
+from ...input_checks import finite_number, points_of_beam, positive, times_from_rest
 from ...loads import Load, loads_in_time, rippled
 from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
@@ -275,9 +275,7 @@ def spin_up_response(
 
 
 def _checked(times: float | ArrayLike, tolerance: float) -> tuple[FloatArray, float]:
-    time = finite_values("times", times, "s")
-    if time[0] < 0.0 or np.any(np.diff(time) < 0.0):
-        raise ValueError("times must ascend from 0 s on, for the beam is at rest before")
+    time = times_from_rest(times)
     tolerance = positive("tolerance", tolerance)
     if tolerance < _FINEST:
         raise ValueError(

@@ -14,7 +14,7 @@ from scipy.interpolate import PchipInterpolator
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
-from ...input_checks import finite_values, rotation_speed, whole_number
+from ...input_checks import finite_values, require_ascending, rotation_speed, whole_number
 from ...plotting import apart, axes_or_new, cycled, free_place
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
@@ -200,8 +200,7 @@ def campbell(
     speeds = finite_values("omegas", omegas, "rad/s")
     for speed in speeds:
         rotation_speed(float(speed), "omegas")
-    if np.any(np.diff(speeds) <= 0.0):
-        raise ValueError(f"omegas must ascend, got {speeds.tolist()} rad/s")
+    require_ascending("omegas", speeds, "rad/s")
     count, orders = whole_number("count", count), whole_number("orders", orders)
     if not planes or len(set(planes)) < len(planes):
         raise ValueError(f"planes must name families once each, got {list(planes)}")
