@@ -49,7 +49,7 @@ def explore(
     $ rotbeam explore --jobs 1
     $ rotbeam explore --config beam.toml --cache results/cache -o mine.html
     """
-    from ..explorer import explorer_page
+    from ..explorer import explorer_data, explorer_page
 
     require_exudyn()
     if out is None:
@@ -63,9 +63,9 @@ def explore(
     beam = file.beam
     options = {} if config is None else _scaled(beam)
     with Workers(cache=cache).counted("exact orbits and spin-ups") as progress:
-        page = explorer_page(beam=beam, cache=cache, jobs=jobs, progress=progress, **options)
+        data = explorer_data(beam, cache=cache, jobs=jobs, progress=progress, **options)
     with whole_file(out) as partial:
-        partial.write_text(page, encoding="utf-8")
+        partial.write_text(explorer_page(data), encoding="utf-8")
     print_text(f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
 
 

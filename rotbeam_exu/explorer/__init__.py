@@ -29,25 +29,20 @@ _UNKNOWN = -32768
 """In their place where there are none."""
 
 
-def explorer_page(data: xr.Dataset | None = None, **options: Any) -> str:
+def explorer_page(data: xr.Dataset) -> str:
     """Return the Explorer as the text of an HTML page, which needs nothing else to be viewed.
 
     Parameters
     ----------
-    data : Dataset, optional
+    data : Dataset
         As made by `explorer_data`.
-    **options
-        For `explorer_data`, where no data are given.
 
     Examples
     --------
     >>> from pathlib import Path
-    >>> Path("explorer.html").write_text(explorer_page(), encoding="utf-8")  # doctest: +SKIP
+    >>> page = explorer_page(explorer_data())  # doctest: +SKIP
+    >>> Path("explorer.html").write_text(page, encoding="utf-8")  # doctest: +SKIP
     """
-    if data is None:
-        data = explorer_data(**options)
-    elif options:
-        raise TypeError(f"options are for new data, but data were given with {', '.join(options)}")
     scripts = "\n".join(_part(f"{name}.js") for name in _SCRIPTS)
     page = _part("page.html").replace("/*STYLE*/", _part("style.css"))
     page = page.replace("/*THEME*/", _part("theme.js")).replace("/*SCRIPTS*/", scripts)

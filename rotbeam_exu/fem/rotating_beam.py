@@ -33,8 +33,8 @@ class RotatingBeam:
     model : Formulation
     chain : Chain
         Its nodes, from the clamped root to the tip, and its bodies.
-    root_marker, tip_marker : MarkerIndex
-        Positions, to which forces and other bodies can be attached.
+    tip_marker : MarkerIndex
+        Position of the tip, to which forces and other bodies can be attached.
     tip_sensor : SensorIndex
         Position of the tip, stored in the sensor itself.
     torque : callable
@@ -57,7 +57,6 @@ class RotatingBeam:
     elements: int
     frame: Frame
     chain: Chain
-    root_marker: exudyn.MarkerIndex
     tip_marker: exudyn.MarkerIndex
     tip_sensor: exudyn.SensorIndex
     torque: drive.Torque
@@ -171,7 +170,7 @@ def add_rotating_beam(
     >>> numbers = add_rotating_beam(mbs, blade, SpinUp(omega=3.0, ramp_time=3.0), elements=8)
     >>> mbs.Assemble()
     >>> len(numbers.nodes), len(numbers.bodies), numbers.tip_marker
-    (9, 8, 3)
+    (9, 8, 2)
     >>> mbs.SolveDynamic(numbers.solver_settings(duration=0.5, step=5e-3))
     True
     """
@@ -206,9 +205,7 @@ def add_rotating_beam(
         torque = drive.torque_of(mbs, chain, model, constraints, seen)
         if loading:
             loading.add(mbs, chain, rotation, frame)
-    root, tip = (
-        mbs.AddMarker(items.MarkerNodePosition(nodeNumber=chain.nodes[end])) for end in (0, -1)
-    )
+    tip = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=chain.nodes[-1]))
     sensor = mbs.AddSensor(
         items.SensorNode(
             nodeNumber=chain.nodes[-1],
@@ -218,7 +215,6 @@ def add_rotating_beam(
         )
     )
     return RotatingBeam(
-        model=model, beam=beam, elements=elements, frame=frame, chain=chain, root_marker=root,
-        tip_marker=tip, tip_sensor=sensor, torque=torque, clamp=tuple(constraints),
-        mass=mass, loading=loading,
+        model=model, beam=beam, elements=elements, frame=frame, chain=chain, tip_marker=tip,
+        tip_sensor=sensor, torque=torque, clamp=tuple(constraints), mass=mass, loading=loading,
     )  # fmt: skip

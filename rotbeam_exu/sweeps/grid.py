@@ -83,16 +83,15 @@ def sweep(
     -------
     Dataset
         Over `omega` and `ramp_time`: amplitude, first_harmonic, offset and residual [-],
-        frequency, frequency_error and omega_n [rad/s], verdict ("passed", "failed" or, in what an
-        error holds, "pending") and failure, the sentence.
+        frequency, frequency_error and omega_n [rad/s], verdict ("passed" or "failed") and failure,
+        the sentence.
 
     Raises
     ------
     ValueError
         If the grid is empty or has duplicates, or an input is refused, mostly before any work.
     SimulationError
-        If a case fails and `on_error` is "raise"; if a worker dies. Finished cases are cached, and
-        the attribute `run` of the error holds what would have been returned, as far as it got.
+        If a case fails and `on_error` is "raise"; if a worker dies. Finished cases are cached.
 
     Examples
     --------
@@ -117,19 +116,15 @@ def sweep(
         jobs = whole_number("jobs", jobs)
     store = None if cache is None else cache_of(cache, element)
     results: dict[tuple[float, float], xr.Dataset] = {}
-    try:
-        for done, (point, result) in enumerate(solved(cases, store, executor, jobs), start=1):
-            results[point] = result
-            if progress is not None:
-                progress(done, len(cases))
-            if result.attrs["failure"] and on_error == "raise":
-                raise SimulationError(
-                    f"omega = {point[0]:g} rad/s, ramp_time = {point[1]:g} s: "
-                    f"{result.attrs['failure']}; on_error='record' keeps going"
-                )
-    except SimulationError as error:
-        error.run = _table(cases, results)
-        raise
+    for done, (point, result) in enumerate(solved(cases, store, executor, jobs), start=1):
+        results[point] = result
+        if progress is not None:
+            progress(done, len(cases))
+        if result.attrs["failure"] and on_error == "raise":
+            raise SimulationError(
+                f"omega = {point[0]:g} rad/s, ramp_time = {point[1]:g} s: "
+                f"{result.attrs['failure']}; on_error='record' keeps going"
+            )
     return _table(cases, results)
 
 
@@ -137,21 +132,20 @@ def _table(
     cases: dict[tuple[float, float], RunCase],
     results: dict[tuple[float, float], xr.Dataset],
 ) -> xr.Dataset:
-    """Return the table of a sweep, as `sweep` describes it, with all results so far."""
+    """Return the table of a sweep, as `sweep` describes it, with all results."""
     omegas, ramp_times = (list(dict.fromkeys(values)) for values in zip(*cases, strict=True))
     dims = ("omega", "ramp_time")
-    known = [results[point].attrs if point in results else {} for point in cases]
 
-    def column(name: str, missing: float | str) -> FloatArray:
-        values = np.array([one.get(name, missing) for one in known])
+    def column(name: str) -> FloatArray:
+        values = np.array([results[point].attrs.get(name, math.nan) for point in cases])
         return values.reshape(len(omegas), len(ramp_times))
 
     first = next(iter(cases.values())).describe()
     return dataset(
         {
-            **{name: (dims, column(name, math.nan), label) for name, label in MEASURED.items()},
-            "verdict": (dims, column("verdict", "pending"), "verdict"),
-            "failure": (dims, column("failure", ""), "why a case failed"),
+            **{name: (dims, column(name), label) for name, label in MEASURED.items()},
+            "verdict": (dims, column("verdict"), "verdict"),
+            "failure": (dims, column("failure"), "why a case failed"),
         },
         {"omega": (omegas, OMEGA), "ramp_time": (ramp_times, "ramp time T [s]")},
         {

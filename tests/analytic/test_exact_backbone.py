@@ -1,7 +1,5 @@
 """Periodic orbits of the exact beam: golden frequencies, invariants, amplitudes not reached."""
 
-import warnings
-
 import numpy as np
 import pytest
 
@@ -98,18 +96,13 @@ def test_small_orbit_is_the_linear_mode(beam):
     assert moving == pytest.approx(modes.shapes(x)[:, 0], abs=1e-6)
 
 
-def test_large_amplitudes_are_reached(beam):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RotbeamWarning)
-        for omega in (2.0, 8.0):
-            b = periodic_orbits(beam, omega, [0.6])
-            assert b.amplitude[0] == 0.6
-            assert b.jacobi_drift[0] < 1e-10
-            assert np.max(np.abs(b.orbit(0, 2000)[0])) == pytest.approx(0.6, rel=1e-5)
+@pytest.fixture(scope="module")
+def wide(beam):
+    return periodic_orbits(beam, 4.0, [0.3])
 
 
-def test_orbit_response_and_state_tell_the_same(beam):
-    b = periodic_orbits(beam, 4.0, [0.3])
+def test_orbit_response_and_state_tell_the_same(beam, wide):
+    b = wide
     x, rate = b.orbit(0, 401)
     tau = np.linspace(0.0, 2.0 * np.pi * beam.frequency_scale / b.frequency[0], 401)
     assert x[0] == pytest.approx(0.0, abs=1e-15)
@@ -124,8 +117,8 @@ def test_orbit_response_and_state_tell_the_same(beam):
     assert series == pytest.approx(x, abs=1e-9)
 
 
-def test_state_is_consistent_in_space_and_time(beam):
-    b = periodic_orbits(beam, 4.0, [0.3])
+def test_state_is_consistent_in_space_and_time(wide):
+    b = wide
     x, phase, h = np.linspace(0.0, 8.0, 9), 0.7, 1e-4
     here = b.state(0, x, phase)
     ahead, behind = (b.state(0, x, phase + s * h * b.frequency[0]) for s in (1.0, -1.0))
@@ -155,18 +148,14 @@ def test_orbits_of_the_first_mode_are_stable(beam):
         assert np.abs(small.multipliers - expected).min() < 1e-4
 
 
-def test_an_internal_resonance_is_named(beam):
+def test_a_large_amplitude_is_reached_and_its_internal_resonance_named(beam):
     # By the linear frequencies it would be harmonic 17 and mode 3, whose ratio about this orbit is
     # 16.24; that of mode 2 is 6.036.
     with pytest.warns(RotbeamWarning, match=r"harmonic 6 of the orbit .* 0\.6 % from mode 2"):
-        periodic_orbits(beam, 2.0, [0.6])
-
-
-def test_amplitudes_in_any_order(beam):
-    b = periodic_orbits(beam, 6.0, [0.2, 0.01, 0.2])
-    assert b.frequency[0] == b.frequency[2]
-    assert b.amplitude.tolist() == [0.2, 0.01, 0.2]
-    assert b.frequency[1] == pytest.approx(b.omega_n * (1.0 - b.lambda_omega * 1e-4), rel=1e-8)
+        b = periodic_orbits(beam, 2.0, [0.6])
+    assert b.amplitude[0] == 0.6
+    assert b.jacobi_drift[0] < 1e-10
+    assert np.max(np.abs(b.orbit(0, 2000)[0])) == pytest.approx(0.6, rel=1e-5)
 
 
 def test_an_orbit_with_a_large_residual_is_refused(beam, monkeypatch):
@@ -222,7 +211,7 @@ def test_a_tangent_that_leads_astray_is_made_anew(beam):
     )
 
 
-@pytest.mark.parametrize("amplitudes", [[0.04, 0.06], [0.02, 0.03], [0.02, 0.04], [0.04]])
+@pytest.mark.parametrize("amplitudes", [[0.04, 0.06], [0.02, 0.03], [0.02, 0.04]])
 def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
     found = periodic_orbits(beam, 6.0, amplitudes)
     expected = 1.0 - found.lambda_omega * found.amplitude**2
@@ -234,13 +223,13 @@ def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
 
 def test_orbits_found_are_attached(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
-    asked = [0.2, 0.6, 0.1]
+    asked = [0.2, 0.6, 0.1, 0.2]
     with pytest.raises(AmplitudeNotReachedError, match=r"of 0\.6 was found") as caught:
         periodic_orbits(beam, 6.0, asked)
     kept = caught.value.orbits
     whole = periodic_orbits(beam, 6.0, [0.2, 0.1])
-    assert kept.amplitude.tolist() == [0.2, 0.1]
-    np.testing.assert_array_equal(kept.frequency, whole.frequency)
+    assert kept.amplitude.tolist() == [0.2, 0.1, 0.2]
+    np.testing.assert_array_equal(kept.frequency, whole.frequency[[0, 1, 0]])
     assert isinstance(caught.value, RuntimeError)
     with pytest.raises(AmplitudeNotReachedError) as caught:
         periodic_orbits(beam, 6.0, [0.6])

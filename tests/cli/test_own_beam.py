@@ -24,7 +24,8 @@ def reed(tmp_path):
 
 def test_the_explorer_of_a_reed_has_its_own_speeds(call, tmp_path, monkeypatch, reed):
     seen = {}
-    monkeypatch.setattr(explorer, "explorer_page", lambda **options: seen.update(options) or "")
+    monkeypatch.setattr(explorer, "explorer_data", lambda beam, **o: seen.update(o, beam=beam))
+    monkeypatch.setattr(explorer, "explorer_page", lambda _: "")
     monkeypatch.chdir(tmp_path)
     code, out, _ = call("explore", "--config", reed)
     assert code == 0

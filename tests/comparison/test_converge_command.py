@@ -7,7 +7,6 @@ from analytic import Beam, SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import load, natural_frequencies, simulate
 from rotbeam_exu.files.beam_file import load_beam
 
-SHORT = ("--duration", "8", "--jobs", "1", "--step")
 TAPERED = """
 [blade]
 length = 8.0
@@ -19,21 +18,23 @@ mass_per_length = [0.2, -0.1]
 
 
 def converged(call, folder, *arguments):
-    code, out, error = call("converge", *SHORT, *arguments, "-o", folder, "--cache", folder / "c")
+    run = ("--jobs", "1", "-o", folder, "--cache", folder / "c")
+    code, out, error = call("converge", *run, *arguments)
     assert code == 0, error
     (path,) = folder.glob("converge-*.nc")
     return load(path), out, error
 
 
 def test_orders_errors_and_a_mesh_that_keeps_the_tolerance(call, tmp_path):
-    data, out, error = converged(call, tmp_path, "4e-3", "--elements", "8", "--tolerance", "1e-3")
+    mesh = ("--elements", "8", "--step", "4e-3", "--duration", "6.4", "--tolerance", "3e-3")
+    data, out, error = converged(call, tmp_path, *mesh)
     assert data["order"] == pytest.approx(4.0, abs=0.4)  # of q(t), on 4, 8 and 16 cables
     assert data["order_in_step"] == pytest.approx(2.0, abs=0.05)
     np.testing.assert_allclose(data["frequency_order"], 4.0, atol=0.25)
-    # The fit has no exact answer, and its errors are those from it: within a tenth of the least.
-    np.testing.assert_allclose(data["error"], data["exact_error"], rtol=0.02, atol=3e-5)
+    # The fit has no exact answer, and its errors are those from it, which is known to 3e-4.
+    np.testing.assert_allclose(data["error"], data["exact_error"], rtol=0.0, atol=3e-4)
     assert np.abs(data["exact_distance"]).max() < 1e-6
-    # Its 4e-4 are luck: the parts of mesh and step, 3.5e-3 and 3.4e-3, cancel.
+    # Its 4e-4 are luck: the parts of mesh and step, 2.9e-3 and 2.6e-3, cancel.
     assert data["error"][3] < 1e-3
     assert "8 elements with a step of 0.004 s have errors of 8.7e-04" in error
     beam, motion = Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0)
@@ -42,26 +43,26 @@ def test_orders_errors_and_a_mesh_that_keeps_the_tolerance(call, tmp_path):
     exact = None
     # The two parts of the error, apart, for together they cancel: each has half the tolerance.
     for elements, step in ((n, h / 2.0), (2 * n, h)):
-        run = simulate(beam, motion, elements=elements, step=step, duration=8.0)[["q"]]
-        run = run.sel(time=np.arange(0.0, 8.0, 40.0 * h), method="nearest")
+        run = simulate(beam, motion, elements=elements, step=step, duration=6.4)[["q"]]
+        run = run.sel(time=np.arange(0.0, 6.4, 40.0 * h), method="nearest")
         if exact is None:
-            exact = spin_up_response(beam, motion, run["time"].to_numpy(), tolerance=1e-6).q
+            exact = spin_up_response(beam, motion, run["time"].to_numpy(), tolerance=1e-5).q
         off = np.abs(run["q"] - exact).max() / np.abs(exact).max()
         # Of the other part a quarter and a sixteenth are left.
-        assert 0.2e-3 < off < 0.55e-3
+        assert 0.6e-3 < off < 1.65e-3
     found = natural_frequencies(beam, 6.0, elements=n)
-    assert np.abs(found / linear_modes(beam, 6.0).frequencies - 1.0).max() < 1e-3
+    assert np.abs(found / linear_modes(beam, 6.0).frequencies - 1.0).max() < 3e-3
 
 
 def test_a_tapered_blade_on_the_default_mesh_is_told(call, tmp_path):
     """Cables of constant sections: of second order, 2e-3 off on 16 in the frequencies."""
     (tmp_path / "beam.toml").write_text(TAPERED)
-    config = ("8e-3", "--config", tmp_path / "beam.toml", "--count", "1")
-    data, _, error = converged(call, tmp_path, *config, "--no-exact")
+    config = ("--step", "16e-3", "--duration", "6.4", "--config", tmp_path / "beam.toml")
+    data, _, error = converged(call, tmp_path, *config, "--count", "1", "--no-exact")
     assert data.attrs["elements"] == 16
     np.testing.assert_allclose(data["frequency_order"], 2.0, atol=0.2)
     assert data["order"] == pytest.approx(2.0, abs=0.2)
-    assert "16 elements with a step of 0.008 s have errors of" in error
+    assert "16 elements with a step of 0.016 s have errors of" in error
     exact = linear_modes(load_beam(tmp_path / "beam.toml"), data.attrs["omega"], 1).frequencies
     off = data["frequency"][:, 0] / exact - 1.0
     np.testing.assert_allclose(data["frequency_error"][:, 0], off, rtol=0.1)

@@ -67,7 +67,7 @@ MADE = {
         analytic.backbone(BEAM.with_section_out_of_plane(0.9, 0.8), 0.0, functions=8)
         .leaving(0.3, 0.4, points=3)
     ),
-    "BackboneCurve": lambda: analytic.backbone_curve(BEAM, 6.0, up_to=0.1, coefficients=5),
+    "BackboneCurve": lambda: analytic.backbone_curve(BEAM, 6.0, up_to=0.1),
     "LinearModes": lambda: analytic.linear_modes(BEAM, 6.0),
     "SpaceModes": lambda: analytic.linear_modes(TWISTED, 1.0),
     "SteadyState": lambda: analytic.steady_state(TWISTED, 1.0),
@@ -87,7 +87,7 @@ MADE = {
     ),
 }  # fmt: skip
 # What is computed when it is asked, and inputs.
-NO_RESULTS = {"Backbone", "FourierRamp", "ReducedModel", "FloatArray", "Any"}
+NO_RESULTS = {"Backbone", "FourierRamp", "ReducedModel", "FloatArray", "float | FloatArray", "Any"}
 NO_RESULTS |= {"Path", "Callable[[FloatArray], BeamState]", "xr.Dataset"}
 
 

@@ -87,19 +87,6 @@ def test_processes_give_the_same_bits(beam, serial):
     xr.testing.assert_identical(found, serial.sel(omega=[4.0], ramp_time=[2.0]))
 
 
-@pytest.mark.slow  # processes, above, take the same way; a cluster's start is all that it adds
-def test_dask_gives_the_same_bits(beam, serial):
-    distributed = pytest.importorskip("distributed")
-    with (
-        distributed.LocalCluster(
-            n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        found = sweep(beam, **SMALL, **COARSE, executor=client.get_executor())
-    xr.testing.assert_identical(found, serial)
-
-
 def test_a_finished_sweep_is_read_not_run(beam, serial, cache, monkeypatch):
     monkeypatch.setattr(sweeps, "solve", lambda case: pytest.fail("ran a finished case"))
     again = sweep(beam, **SMALL, **COARSE, cache=cache)
@@ -136,11 +123,9 @@ def test_a_failed_case_stays_on_record_with_its_sentence(beam, tmp_path):
     assert "run for" in found["failure"].to_numpy()[0, 1]
     assert np.isnan(found["frequency"].to_numpy()[0, 1])
     assert list(sweeps.failures(found).values()) == [[(6.0, 8.5)]]
-    # From the cache the same; and the error of a sweep that ends holds what was there by then.
     sentence = r"omega = 6 rad/s, ramp_time = 8\.5 s: .*record"
-    with pytest.raises(SimulationError, match=sentence) as stop:
+    with pytest.raises(SimulationError, match=sentence):
         sweep(beam, **grid, **COARSE, cache=tmp_path)
-    xr.testing.assert_identical(stop.value.run, found)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,11 +19,6 @@ def test_uneven_sliders_are_refused():
         explorer_data(amplitudes=[0.2, 0.1])
 
 
-def test_options_beside_data_are_refused(data):
-    with pytest.raises(TypeError, match="data were given with jobs"):
-        explorer_page(data, jobs=1)
-
-
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 def test_harmonics_left_out_are_small(beam, data):
     for omega in (0.0, 6.0, 12.0):
@@ -54,7 +49,8 @@ def test_nothing_in_the_data_ends_the_script(data):
 
 
 def test_it_writes_one_page_and_says_where(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(explorer, "explorer_page", lambda **_: "<!doctype html>ω")
+    monkeypatch.setattr(explorer, "explorer_data", lambda *_, **__: None)
+    monkeypatch.setattr(explorer, "explorer_page", lambda _: "<!doctype html>ω")
     out = tmp_path / "site" / "explorer.html"
     main(["explore", "--out", str(out)])
     assert out.read_text(encoding="utf-8") == "<!doctype html>ω"
@@ -63,7 +59,7 @@ def test_it_writes_one_page_and_says_where(tmp_path, capsys, monkeypatch):
 
 
 def test_another_ending_is_refused_before_any_work(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(explorer, "explorer_page", lambda **_: pytest.fail("computed first"))
+    monkeypatch.setattr(explorer, "explorer_data", lambda *_, **__: pytest.fail("computed first"))
     code, _, error = call("explore", "--out", tmp_path / "explorer.pdf")
     assert code == 2
     assert "the ending must be .html" in error

@@ -1,6 +1,7 @@
-"""Damping in Exudyn: free decay as of the exact blade, what takes energy, and what is refused."""
+"""Damping in Exudyn: free decay as of the exact blade, and what takes energy or brings it."""
 
 import math
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -11,8 +12,11 @@ from analytic import (
     Beam,
     Blade,
     Damping,
+    DistributedForce,
+    Gravity,
     Rectangle,
     Section,
+    SpeedRipple,
     SpinUp,
     SteadyRotation,
     TipForce,
@@ -204,24 +208,33 @@ def test_the_air_brakes_the_axis_and_no_section_or_mass(beam, model):
     assert taken == pytest.approx([wanted], rel=1e-9)
 
 
+HUB = Beam.reference().with_section_out_of_plane(1.0, 0.8).with_hub_radius(0.5)
+AIR = by_mass(HUB, 0.05)
+
+
 @pytest.mark.parametrize(
-    ("element", "frame"),
+    ("element", "frame", "blade", "loads"),
     [
-        ("cable", "inertial"),
-        ("exact", "rotating"),
-        ("space_exact", "inertial"),
+        ("cable", "inertial", HUB.with_damping(replace(AIR, bending=0.01, axial=1e-4)), []),
+        ("exact", "rotating", HUB.with_damping(replace(AIR, bending=0.01, axial=1e-4)), []),
+        ("space_exact", "inertial", HUB.with_damping(AIR), []),
+        # In flap and lag at once, with masses.
+        (
+            "cable", "rotating", HUB.with_tip_mass(0.1, 0.01).with_setting_angle(0.7),
+            [
+                Gravity(2.0), SpeedRipple(amplitude=0.1, frequency=5.0),
+                TipForce(amplitude=0.3, frequency=2.0),
+                DistributedForce(amplitude=0.1, frequency=3.0),
+            ],
+        ),
     ],
-)
-def test_the_energy_balance_closes_to_second_order_in_the_step(beam, element, frame):
-    viscous = {"bending": 0.01, "axial": 1e-4} if element in ("cable", "exact") else {}
-    air = by_mass(beam, 0.05).external
-    blade = beam.with_section_out_of_plane(1.0, 0.8)
-    blade = blade.with_hub_radius(0.5).with_damping(Damping(external=air, **viscous))
+)  # fmt: skip
+def test_the_energy_balance_closes_to_second_order_in_the_step(element, frame, blade, loads):
     errors = []
     for step in (8e-3, 4e-3):
         run = simulate(
             blade, SpinUp(omega=6.0, ramp_time=3.0), element=element, elements=2, duration=4.0,
-            step=step, frame=frame,
+            step=step, frame=frame, loads=loads,
         )  # fmt: skip
         balance = (run["jacobi_energy"] - run["supplied_energy"]).to_numpy()
         errors.append(np.abs(balance - balance[0]).max() / run["elastic_energy"].max().item())

@@ -35,6 +35,7 @@ CURVED = (
 MODELS = [cls() for cls in FORMULATIONS.values() if not cls.leaves_plane]
 MODELS += [Exact(nodes=3), Ancf3(law="coupled"), Substructures(frame="pinned")]
 CASES = [(model, BEAM) for model in MODELS]
+CASES += [(Exact(nodes=3), BEAM.with_taper(0.2, 0.3))]
 CASES += [(SpaceCable(), BEAM.with_section_out_of_plane(bending_ratio=1.0))]
 CASES += [(SpaceExact(), BEAM.with_shape(Rectangle()))]
 CASES += [(SpaceExact(), CURVED)]

@@ -170,7 +170,7 @@ def test_seconds_are_no_time_deltas(tmp_path):
 
 
 def test_fill_values_of_another_file_are_not_taken_over(tmp_path):
-    data = xr.Dataset({"v": ("x", [1.0, np.nan, -1.0])})
+    data = xr.Dataset({"v": ("x", [1.0, np.nan, -0.5])})
     data["v"].encoding = {"_FillValue": -1.0, "dtype": "int16", "scale_factor": 0.5}
     xr.testing.assert_identical(load(save(data, tmp_path / "x.nc")), data)
 

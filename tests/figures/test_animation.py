@@ -9,7 +9,6 @@ from PIL import Image
 
 from analytic import SpinUp, linear_response, spin_up_response
 from rotbeam_exu import dataset_of
-from rotbeam_exu.cli import main
 from rotbeam_exu.figures import animate, save_animation
 from rotbeam_exu.runs.shape import in_space
 
@@ -205,16 +204,3 @@ def test_bad_arguments_are_one_sentence(call, tmp_path, monkeypatch, arguments, 
     assert code == 2
     assert sentence in error
     assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("arguments", "largest"),
-    [(["--omega", "6"], 5e6), (["--omega", "4", "--duration", "6", "--beside", "linear"], 2e6)],
-)
-def test_films_of_the_site_are_small_and_short(tmp_path, arguments, largest):
-    out = tmp_path / "beam.gif"
-    main(["animate", "--ramp-time", "3", *arguments, "--out", str(out)])
-    assert out.stat().st_size < largest
-    with Image.open(out) as picture:
-        assert picture.n_frames * picture.info["duration"] < 15e3

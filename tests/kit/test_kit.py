@@ -14,7 +14,7 @@ from analytic import Blade, Damping, Gravity, PointMass, Section, SpinUp, Steady
 from rotbeam_exu.verification import kit as room
 from rotbeam_exu.verification.cases import CASES, VERSION, Asked
 from rotbeam_exu.verification.judgement import THRESHOLDS, judged
-from rotbeam_exu.verification.kit import MESHES, kit_files, row_of, write_kit
+from rotbeam_exu.verification.kit import MESHES, row_of, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission_files import read_submission
@@ -210,7 +210,3 @@ def test_an_empty_folder_is_taken_by_the_command(call, tmp_path, monkeypatch):
     code, _, error = call("kit", tmp_path / "kit")
     assert code == 2
     assert "is not empty" in " ".join(error.split())
-
-
-def test_the_kit_is_the_same_each_time():
-    assert kit_files() == kit_files()

@@ -5,7 +5,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scipy.interpolate import CubicHermiteSpline
 
 from analytic import SpeedTable, SpinUp, linear_modes, spin_up_response
 from analytic.exact.beam.state import Driven
@@ -40,18 +39,13 @@ def exact():
     return response(S1.motion)
 
 
-@pytest.fixture(scope="module")
-def spline(exact):
-    return CubicHermiteSpline(TIME, exact.q, exact.q_dot)
-
-
 @pytest.fixture
-def named(spline):
+def named(exact):
     """Return a function that names the mistake in a history; its mesh has errors of its own."""
 
     def name(q, time=TIME, **options):
         q = q * (1.0 + 2e-3 * np.sin(5.0 * time))
-        found = mistake_in_history(S1, time, q, spline, **options)
+        found = mistake_in_history(S1, time, q, exact.q[: time.size], **options)
         return None if found is None else found.name
 
     return name
@@ -65,13 +59,6 @@ def test_factors(named, exact):
     assert named(-exact.q) == "sign of q"
     assert named(exact.q / LENGTH) == "q over L"
     assert named(1e3 * exact.q) == "millimetres"
-
-
-@pytest.mark.parametrize("offset", [0.03, 0.5, -0.4])
-def test_an_offset_of_time(named, spline, offset):
-    moved = TIME - offset
-    q = np.where(moved < 0.0, 0.0, spline(np.clip(moved, 0.0, 6.0)))
-    assert named(q[moved < 5.9], TIME[moved < 5.9]) == "time offset"
 
 
 def test_an_axis_that_does_not_turn(named, exact):
@@ -224,7 +211,7 @@ def test_all_that_was_handed_in_is_searched(submitted):
 
 def test_a_ramp_is_looked_for_beside_a_right_case(exact):
     """A history that is right in S1 says nothing of the ramp in S3."""
-    name, time = next(iter(RAMPS)), TIME[TIME <= 2.0]
+    name, time = list(RAMPS)[-1], TIME[TIME <= 2.0]
     wrong = response(ramp(name, 4.0, 2.0), time).q
     runs = tuple(
         Run(case=case, elements=n, step=h, time=t, q=q * (1.0 + 0.1 / n**2 + 100.0 * h**2))

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
-from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
+from ...input_checks import peak_deflection, rotation_speed, whole_number
 from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
@@ -49,17 +49,9 @@ class Backbone(ModePath):
         return orbits_of(self, amplitudes, self._kind)
 
     @one_thread
-    def curve(
-        self, up_to: float = 0.6, *, coefficients: int = 10, tolerance: float = 1e-8
-    ) -> BackboneCurve:
+    def curve(self, up_to: float = 0.6) -> BackboneCurve:
         """Return the backbone as a series in a², as `backbone_curve` does."""
-        up_to = peak_deflection("up_to", up_to)
-        count = whole_number("coefficients", coefficients, least=5)
-        if positive("tolerance", tolerance) < 1e-10:
-            raise ValueError(
-                f"tolerance must be at least 1e-10, got {tolerance:g}: orbits keep no more"
-            )
-        return settled_curve(self, up_to, count, tolerance)
+        return settled_curve(self, peak_deflection("up_to", up_to))
 
     @one_thread
     def branch(self, up_to: float = 0.9) -> BackboneBranch:
@@ -291,17 +283,16 @@ def backbone_curve(
     up_to: float = 0.6,
     mode: int = 1,
     *,
-    coefficients: int = 10,
-    tolerance: float = 1e-8,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
 ) -> BackboneCurve:
     """Return the exact backbone of a mode as a Chebyshev series in a².
 
-    Through `coefficients` - 1 orbits and the linear mode, on the extrema of Chebyshev's polynomials
-    in a². Where the series does not converge to the tolerance, near an internal resonance, or the
-    orbits end, its range is made shorter, and `holds_up_to` says how far it goes. Resonances so
-    narrow that no orbit shows them are passed unseen: `Backbone.branch` lists all.
+    Through nine orbits and the linear mode, on the extrema of Chebyshev's polynomials in a². Where
+    the series does not converge to 1e-8 of ω_NL/ω_n and of the first harmonic over the peak, near
+    an internal resonance, or the orbits end, its range is made shorter, and `holds_up_to` says how
+    far it goes. Resonances so narrow that no orbit shows them are passed unseen: `Backbone.branch`
+    lists all.
 
     Parameters
     ----------
@@ -309,10 +300,6 @@ def backbone_curve(
         As for `backbone`.
     up_to : float
         Largest peak |q|/L asked for, below 1.
-    coefficients : int
-        Of the series; at least 5.
-    tolerance : float
-        Of ω_NL/ω_n and of the first harmonic over the peak; at least 1e-10.
 
     Raises
     ------
@@ -333,5 +320,4 @@ def backbone_curve(
     >>> round(float(curve.frequency(0.3)), 6), round(curve.lambda_omega, 6)
     (3.723567, 0.019669)
     """
-    of = backbone(beam, omega, mode, theory=theory, functions=functions)
-    return of.curve(up_to, coefficients=coefficients, tolerance=tolerance)
+    return backbone(beam, omega, mode, theory=theory, functions=functions).curve(up_to)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from ...arrays import FloatArray
 from ...beam import AnyBlade
 from ...input_checks import finite_array
-from ...methods.continuation import MOST_FUNCTIONS, THOROUGH, Care
+from ...methods.continuation import MOST_FUNCTIONS, Care
 from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
 from ...warning import warn
@@ -25,9 +25,11 @@ from ..beam.steady import BeamOrbit
 from .internal_resonance import nearest_resonance
 from .path import AmplitudeNotReachedError, ModePath
 
+_COEFFICIENTS = 10
+_TOLERANCE = 1e-8  # of ω_NL/ω_n and of the first harmonic over the peak
 _SHORTER = 0.93  # of the range, where orbits end
 _SHORTEST = 0.1  # of what was asked for
-_LARGEST_DRIFT = 5e-9  # of the Jacobi integral: ω_NL then keeps 1e-10, the first harmonic 2e-9
+_DRIFT = 5e-9  # of the Jacobi integral: ω_NL then keeps 1e-10, the first harmonic 2e-9
 _MOST_HARMONICS = 40  # those of orbits up to 0.8; near a resonance they need more
 _APART = 0.08  # orbits at which resonances are looked for
 
@@ -103,45 +105,44 @@ class BackboneCurve:
         )
 
 
-def settled_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> BackboneCurve:
+def settled_curve(of: ModePath, up_to: float) -> BackboneCurve:
     """Return the series of a backbone, on as many functions as it needs."""
-    model, drift = of.model, max(THOROUGH.drift, min(_LARGEST_DRIFT, 0.5 * tolerance))
-    care = Care(drift=drift, harmonics=_MOST_HARMONICS, halvings=1, tail=of.care.tail)
+    model = of.model
+    care = Care(drift=_DRIFT, harmonics=_MOST_HARMONICS, halvings=1, tail=of.care.tail)
     while True:
         of = replace(of, model=model, care=care)
-        curve = fitted_curve(of, up_to, count, tolerance)
+        curve = _fitting(of, up_to)
         largest = [o for o in of.path.nodes if o.amplitude <= curve.holds_up_to][-1]
         model = largest.system.refined().model
         change = frequency_change(largest, of.path.tangent)
-        if change <= tolerance or model.bending > MOST_FUNCTIONS:
+        if change <= _TOLERANCE or model.bending > MOST_FUNCTIONS:
             break
     curve = replace(curve, error=max(curve.error, change))
     if curve.holds_up_to < up_to:
         below = _apart([o for o in of.path.nodes if o.amplitude <= curve.holds_up_to])
         warn(
-            f"the backbone at omega = {of.omega:g} rad/s has a series of {count} coefficients that "
-            f"holds to {tolerance:g} up to a = {curve.holds_up_to:.4g} only, not up to {up_to:g}"
-            f"{nearest_resonance(of, below)}; ask for more coefficients, or take "
-            f"backbone(...).branch"
+            f"the backbone at omega = {of.omega:g} rad/s has a series that holds to "
+            f"{_TOLERANCE:g} up to a = {curve.holds_up_to:.4g} only, not up to {up_to:g}"
+            f"{nearest_resonance(of, below)}; beyond, take backbone(...).branch"
         )
     return curve
 
 
-def fitted_curve(of: ModePath, up_to: float, count: int, tolerance: float) -> BackboneCurve:
+def _fitting(of: ModePath, up_to: float) -> BackboneCurve:
     """Return the series of a backbone, on as much of the range as it holds for."""
     top = up_to
     while top > _SHORTEST * up_to:
         try:
-            fitted = _fitted(of, top, count)
+            fitted = _fitted(of, top)
         except NoOrbitError:
             top = _SHORTER * min(top, of.path.nodes[-1].amplitude)
             continue
-        if fitted.error <= tolerance:
+        if fitted.error <= _TOLERANCE:
             return fitted
-        top = _converging(fitted, 0.5 * tolerance)
+        top = _converging(fitted, 0.5 * _TOLERANCE)
     raise AmplitudeNotReachedError(
-        f"{count} coefficients do not resolve the backbone of {of.name} to {tolerance:g} even "
-        f"up to a = {top:.3g}: ask for more of them, or take backbone(...).branch"
+        f"a series does not resolve the backbone of {of.name} to {_TOLERANCE:g} even up to "
+        f"a = {top:.3g}: take backbone(...).branch"
     )
 
 
@@ -154,7 +155,8 @@ def _apart(orbits: list[BeamOrbit]) -> list[BeamOrbit]:
     return kept[::-1]
 
 
-def _fitted(of: ModePath, top: float, count: int) -> BackboneCurve:
+def _fitted(of: ModePath, top: float) -> BackboneCurve:
+    count = _COEFFICIENTS
     angle = 0.5 * np.pi / (count - 1)
     at, between = (top * np.sin(angle * (np.arange(count) + half)) for half in (0.0, 0.5))
     # The highest that it was not made from, where it is worst, one amid, and a low one.

@@ -72,7 +72,6 @@ class Ancf3(Sheared, SectionSlopeNodes):
     shear_correction: float = 1.0
 
     name: ClassVar[str] = "ancf3"
-    summary: ClassVar[str] = "the paper's ANCF element, three nodes, quadratic, shear-deformable"
     order = 4.0
     takes_blades: ClassVar[bool] = True
 

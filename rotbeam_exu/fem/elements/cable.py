@@ -68,7 +68,9 @@ class _Cables(Formulation, abstract=True):
 
 @dataclass(frozen=True, kw_only=True)
 class Cable(_Cables, SlopeNodes):
-    """ObjectANCFCable2D: nodes carry r and r', strain |r'| - 1, curvature (r'×r'')/|r'|².
+    """ObjectANCFCable2D: nodes carry r and r', cubic, Bernoulli-Euler.
+
+    Its strain is |r'| - 1, its curvature (r'×r'')/|r'|².
 
     Examples
     --------
@@ -80,7 +82,6 @@ class Cable(_Cables, SlopeNodes):
     """
 
     name: ClassVar[str] = "cable"
-    summary: ClassVar[str] = "ANCF cable, two nodes, cubic, Bernoulli-Euler"
     takes_viscosity: ClassVar[bool] = True
     body: ClassVar[str] = "ObjectANCFCable2D"
 
@@ -122,7 +123,6 @@ class SpaceCable(_Cables, SpaceSlopeNodes):
     """
 
     name: ClassVar[str] = "space_cable"
-    summary: ClassVar[str] = "ANCF cable in space, cubic, one EI, no torsion"
     new_jacobians: ClassVar[bool] = True  # half the time
     body: ClassVar[str] = "ObjectANCFCable"
 

@@ -76,8 +76,6 @@ class Formulation(Described, abstract=True):
 
     name: ClassVar[str]
     """Name that the user gives."""
-    summary: ClassVar[str]
-    """One line that names the formulation."""
 
     takes_blades: ClassVar[bool] = False
     """Whether it models any `Blade`, not the uniform beam alone."""

@@ -87,7 +87,6 @@ class Linear(_LinearFrames):
     """
 
     name: ClassVar[str] = "linear"
-    summary: ClassVar[str] = "one linear floating frame, clamped to the root; diverges above ω0"
     order = 4.0
 
     def row(self, beam: Beam, elements: int) -> FrameRow:
@@ -97,7 +96,7 @@ class Linear(_LinearFrames):
 
 @dataclass(frozen=True, kw_only=True)
 class Substructures(_LinearFrames):
-    """`elements` linear floating frames in a row (Valverde and García-Vallejo, 2009).
+    """Linear floating frames in a row, as many as `elements` (Valverde and García-Vallejo, 2009).
 
     Rotations between the frames bring the nonlinearity in piece by piece: each number of frames
     has its divergence speed, and the more frames, the higher.
@@ -125,7 +124,6 @@ class Substructures(_LinearFrames):
     cells: int = 2
 
     name: ClassVar[str] = "substructures"
-    summary: ClassVar[str] = "linear floating frames in a row; each number has a divergence speed"
     order = 2.0
 
     def __post_init__(self) -> None:

@@ -48,7 +48,6 @@ class Exact(Sheared, AngleNodes):
     shear_correction: float = SHEAR_CORRECTION
 
     name: ClassVar[str] = "exact"
-    summary: ClassVar[str] = "geometrically exact beam, two or three nodes, shear-deformable"
     takes_blades: ClassVar[bool] = True
     takes_viscosity: ClassVar[bool] = True
 

@@ -58,7 +58,6 @@ class SpaceExact(Sheared, FrameNodes):
     shear_correction: float = SHEAR_CORRECTION
 
     name: ClassVar[str] = "space_exact"
-    summary: ClassVar[str] = "geometrically exact beam in space, two nodes, shear and torsion"
     order = 2.0
     takes_blades: ClassVar[bool] = True
     new_jacobians: ClassVar[bool] = True  # half the time

@@ -45,7 +45,8 @@ def mistakes_in(
             try:
                 one = _in_tags(case, submission, judgement)
                 if one is None and seen is not None:
-                    run, true = seen.finest, seen.reference.history
+                    run = seen.finest
+                    true = seen.reference.history(run.time)
                     one = mistake_in_history(case, run.time, run.q, true, ramps, most)
                 elif one is None and case.asked is not Asked.HISTORY:
                     truth = reference(case, submission.declaration.theory)
@@ -87,11 +88,11 @@ def _in_tags(case: Case, submission: Submission, judgement: Judgement) -> Mistak
             (of,) = judged(other, cases={case.name: case}).findings.values()
             found[theory] = next(iter(of.values()))
 
-    def rank(theory: Theory) -> tuple[int, float]:
-        return outcomes.index(found[theory].outcome), abs(found[theory].model_difference)
+    def rank(theory: Theory) -> int:
+        return outcomes.index(found[theory].outcome)
 
     best = min(found, key=rank, default=None)
-    if best is None or rank(best)[0] >= outcomes.index(judgement.outcome_of(case.name)):
+    if best is None or rank(best) >= outcomes.index(judgement.outcome_of(case.name)):
         return None
     before = next(iter(judgement.findings[case.name].values()))
     said = f"the results are those of {_tagged(best)}, the tags say {_tagged(mine.theory)}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain
 from typing import Any
@@ -12,7 +12,6 @@ import numpy as np
 
 from analytic import SpeedTable, spin_up_response
 from analytic.arrays import FloatArray
-from analytic.lazily import optimize
 
 from ..cases import Case
 from .forces import FORCES, without
@@ -24,7 +23,6 @@ LEFT = 0.2
 """Share of the error that may be left by what explains it; meshes and steps have a share in it."""
 
 _SAMPLES = 1500
-_EARLIEST, _STEPS = 2.0, 401  # offsets that are tried [s], and how many
 _RAMP_WINDOW = 4.0  # of the ramp [s]: enough to tell one from another
 _LINEAR = 0.1  # |q|/L up to which a response is proportional to the speed, early in a ramp
 
@@ -97,7 +95,6 @@ class _Seen:
     time: FloatArray
     q: FloatArray
     true: FloatArray
-    reference: Callable[[FloatArray], FloatArray]
 
     @property
     def scale(self) -> FloatArray:
@@ -113,27 +110,24 @@ def mistake_in_history(
     case: Case,
     time: FloatArray,
     q: FloatArray,
-    reference: Callable[[FloatArray], FloatArray],
+    true: FloatArray,
     ramps: Collection[str] = RAMPS,
     most: float = SMALL / 3.0,
 ) -> Mistake | None:
     """Return the mistake that explains the error of a history, if there is one.
 
-    Times [s] and q [m], in space lag, flap and twist, are as handed in; `reference` gives q at
-    times within the case. `ramps` are the wrong ones to try, keys of RAMPS; each takes a second or
-    two. A mistake leaves `most` at most, over max|q|.
+    Times [s] and q [m], in space lag, flap and twist, are as handed in, and `true` is the reference
+    there. `ramps` are the wrong ones to try, keys of RAMPS; each takes a second or two. A mistake
+    leaves `most` at most, over max|q|.
     """
     every = max(1, time.size // _SAMPLES)
-    time, q = time[::every], q[::every]
-    seen = _Seen(case=case, time=time, q=q, true=reference(time), reference=reference)
-    before = largest((q - seen.true) / seen.scale)
+    seen = _Seen(case=case, time=time[::every], q=q[::every], true=true[::every])
+    before = largest((seen.q - seen.true) / seen.scale)
     if not before > SMALL:
         return None
     if case.in_space:
         return explaining(case.name, before, most, _factors(seen))
-    found = explaining(
-        case.name, before, most, chain(_factors(seen), _offset(seen), _inertial(seen))
-    )
+    found = explaining(case.name, before, most, chain(_factors(seen), _inertial(seen)))
     if found is not None or not case.is_spun_up:
         return found
     for name, said, left in _unit_of_speed(seen):
@@ -168,26 +162,6 @@ def _factors(seen: _Seen) -> _Suspects:
         known = {**SIGNS, name: (said, (1.0, -1.0, -1.0))}
     for name, (said, factor) in known.items():
         yield name, said, largest((seen.q / factor - seen.true) / seen.scale)
-
-
-def _offset(seen: _Seen) -> _Suspects:
-    """Yield the best offset of time; before the start a spin-up is at rest."""
-    case, q = seen.case, seen.q
-
-    def left(offset: float) -> float:
-        moved = seen.time - offset
-        inside = (moved >= 0.0) & (moved <= case.duration)
-        rest = q[moved < 0.0] if case.is_spun_up else np.empty(0)
-        off = np.concatenate((q[inside] - seen.reference(moved[inside]), rest))
-        return largest(off / seen.scale)
-
-    tried = np.linspace(-_EARLIEST, _EARLIEST, _STEPS)
-    best = float(tried[np.argmin([left(offset) for offset in tried])])
-    width = tried[1] - tried[0]
-    found = optimize.minimize_scalar(left, bounds=(best - width, best + width), method="bounded")
-    word = "late" if found.x > 0.0 else "early"
-    begin = "the ramp begins at time zero" if case.is_spun_up else "begin where the orbit begins"
-    yield "time offset", f"q is {abs(found.x):.4g} s {word} throughout: {begin}", float(found.fun)
 
 
 def _inertial(seen: _Seen) -> _Suspects:
