@@ -73,9 +73,10 @@ def finite_element_points(
 
     def measured(elements: int, step: float) -> tuple[xr.Dataset, xr.Dataset]:
         found = sweep(beam, elements=elements, step=step, **grid)
-        bar = found[["amplitude_error", "frequency_error"]]
-        bar = bar.rename(amplitude_error="amplitude", frequency_error="ratio")
-        return measured_ratio(found), bar.assign(ratio=bar["ratio"] / found["omega_n"])
+        linear = found["omega_n"]
+        ratio, error = found["frequency"] / linear, found["frequency_error"] / linear
+        bar = xr.Dataset({"amplitude": found["amplitude_error"], "ratio": error})
+        return xr.Dataset({"amplitude": found["amplitude"], "ratio": ratio}), bar
 
     points, bar = measured(elements, step)
     coarse_step, _ = measured(elements, 2.0 * step)
@@ -93,19 +94,15 @@ def finite_element_points(
         points[f"{name}_error"] = error[name].assign_attrs(whole)
     alone = labeled("error of the ratio: estimator alone")
     points["estimator_error"] = bar["ratio"].assign_attrs(alone)
-    points.attrs = {**beam_attributes(beam), "mesh": mesh, "meshes": _numerics(mesh)}
+    points.attrs = {**beam_attributes(beam), "mesh": mesh, "meshes": _numerics(mesh, step)}
     return points
 
 
-def measured_ratio(found: xr.Dataset) -> xr.Dataset:
-    """Return amplitude and ω_NL/ω_n of a sweep."""
-    ratio = found["frequency"] / found["omega_n"]
-    return xr.Dataset({"amplitude": found["amplitude"], "ratio": ratio})
-
-
-def _numerics(mesh: Mesh) -> str:
+def _numerics(mesh: Mesh, step: float) -> str:
     elements, frame = _MESHES[mesh]
-    steps = "step 1 ms" if mesh == "paper" else "steps of 1 and 2 ms extrapolated to zero"
+    steps = f"step {1e3 * step:g} ms"
+    if mesh == "converged":
+        steps = f"steps of {1e3 * step:g} and {2e3 * step:g} ms extrapolated to zero"
     return f"{elements} cable elements, {frame} frame, {steps}"
 
 
@@ -190,16 +187,12 @@ def figure_14(
         amplitudes on.
     """
     beam = beam or Beam.reference()
-    points = xr.concat(
-        [
-            finite_element_points(beam, omegas=omegas, ramp_times=ramp_times, mesh=mesh, **options)
-            for mesh in meshes
-        ],
-        dim="mesh",
-    )
+    grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, **options}
+    by_mesh = [finite_element_points(beam, mesh=mesh, **grid) for mesh in meshes]
+    points = xr.concat(by_mesh, dim="mesh")
     points["mesh"] = ("mesh", list(meshes), labeled("finite element mesh"))
     data = points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(
-        mesh="", meshes="; ".join(map(_numerics, meshes))
+        mesh="", meshes="; ".join(one.attrs["meshes"] for one in by_mesh)
     )
     notes = [planar_note(beam, omega, max(amplitudes)) for omega in omegas]
     return data.assign_attrs(out_of_plane="; ".join(filter(None, notes))) if any(notes) else data

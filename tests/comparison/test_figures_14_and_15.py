@@ -86,6 +86,7 @@ def test_the_bar_of_a_point_holds_the_exact_backbone(beam, step):
     distance = abs(here["ratio"].item() - exact.frequency[0] / exact.omega_n)
     assert here["estimator_error"] < 0.1 * here["ratio_error"]
     assert distance < here["ratio_error"] < 20.0 * distance
+    assert here.attrs["meshes"] == f"16 cable elements, inertial frame, step {1e3 * step:g} ms"
 
 
 def test_bars_of_the_papers_mesh_hold_the_converged_points():

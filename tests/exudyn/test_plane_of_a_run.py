@@ -37,7 +37,7 @@ def test_a_run_beyond_the_limit_says_so_and_the_file_keeps_it(beam, tmp_path):
 def test_figure_14_of_a_section_beyond_its_limit_says_so(beam, monkeypatch):
     monkeypatch.setattr(
         "rotbeam_exu.comparison.backbones.finite_element_points",
-        lambda *_, **__: xr.Dataset({"ratio": ("omega", [1.0])}, coords={"omega": [2.0]}),
+        lambda *_, **__: xr.Dataset({"ratio": ("omega", [1.0])}, {"omega": [2.0]}, {"meshes": ""}),
     )
     blade, options = beam.with_section_out_of_plane(0.01, math.inf), {"omegas": [2.0]}
     beyond = figure_14(blade, amplitudes=[0.1, 0.45], **options)
