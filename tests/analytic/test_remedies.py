@@ -11,7 +11,6 @@ from analytic import (
     Beam,
     SpinUp,
     Theory,
-    Variant,
     linear_modes,
     periodic_orbits,
     reduced_model,
@@ -48,15 +47,6 @@ def test_a_mode_that_no_number_of_functions_settles():
     beam = unit_beam(1e-10)
     assert "differ by" in complaint(reduced_model, beam, 3e3, "FrM")
     assert reduced_model(beam, 1e3, "FrM").perturbation.h3 > 0.0  # rotate slower
-
-
-@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
-def test_no_oscillation(beam):
-    linear = Variant(name="linear", shape="cantilever", axial="none")
-    said = complaint(reduced_model, beam, 3.0, linear)
-    assert "lower omega, or take FrM" in said
-    assert reduced_model(beam, 3.0, "FrM").omega_n > 0.0
-    assert reduced_model(beam, 2.5, linear).omega_n > 0.0
 
 
 def test_a_stocky_beam_is_named_with_the_two_numbers():
