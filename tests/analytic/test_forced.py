@@ -196,5 +196,5 @@ def test_a_response_that_leaves_the_reach_is_kept_as_far_as_it_goes():
             by_mass(1e-4), 6.0, TipForce(amplitude=5.0), [3.0, 4.0],
             theory=Theory(extension=False), functions=8,
         )  # fmt: skip
-    assert caught.value.response is None or caught.value.response.amplitude.max() > 0.5
+    assert caught.value.response.amplitude.max() > 0.5
     assert "take more damping" in str(caught.value)

@@ -36,7 +36,8 @@ class Kinematics:
         self.axial = axial
         self.shear = 0 if shear is None else axial
         self.shear_ratio = shear  # σ, shear over axial stiffness; None of normal sections
-        self.size = bending + axial + self.shear
+        self.families = bending, axial, self.shear
+        self.size = sum(self.families)
         self.blade = blade
         self._across = shape_functions(blade, bending)
         self._along = shape_functions(blade, axial, "axial")
@@ -59,19 +60,6 @@ class Kinematics:
     def split(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Split the last axis into the coordinates of θ and the coordinates of the strains."""
         return q[..., : self.bending], q[..., self.bending :]
-
-    def padded(self, q: FloatArray, other: Kinematics) -> FloatArray:
-        """Return the coordinates of the same shape in the larger basis of `other`."""
-        result = np.zeros((*q.shape[:-1], other.size))
-        start = end = 0
-        for own, others in (
-            (self.bending, other.bending),
-            (self.axial, other.axial),
-            (self.shear, other.shear),
-        ):
-            result[..., end : end + own] = q[..., start : start + own]
-            start, end = start + own, end + others
-        return result
 
     def _angle(self, q: FloatArray) -> FloatArray:
         return q[..., : self.bending] @ self._phi.T

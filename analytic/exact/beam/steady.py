@@ -98,7 +98,10 @@ class Discretized:
 
     def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
         """Return the coordinates of the same shape on more functions, along the last axis."""
-        return np.asarray(self.model.padded(q, finer.model))
+        own, others = self.model.families, finer.model.families
+        parts = np.split(q, np.cumsum(own)[:-1], axis=-1)
+        more = [[(0, 0)] * (q.ndim - 1) + [(0, n - m)] for m, n in zip(own, others, strict=True)]
+        return np.concatenate(list(map(np.pad, parts, more)), axis=-1)
 
     def by(self, *drive: Any) -> Driven:
         """Return what drives it, where a drive acts at phases (samples,) and a frequency."""

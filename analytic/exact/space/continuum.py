@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -47,7 +47,7 @@ class SpaceContinuum:
 
     def __init__(self, functions: StrainFunctions) -> None:
         self.functions = functions
-        self.size = functions.size
+        self.families, self.size = functions.families, functions.size
         self.blade = functions.blade
         grid, masses = functions.grid, functions.masses
         self.points, self.weights = grid.points, grid.weights
@@ -212,15 +212,6 @@ class SpaceContinuum:
     def bending(self) -> int:
         """Number of functions for each curvature."""
         return self.functions.counts[0] // 2
-
-    def padded(self, q: Any, other: SpaceContinuum) -> Any:
-        """Return the coordinates of the same shape in the larger basis of `other`."""
-        result = np.zeros((*q.shape[:-1], other.size), dtype=q.dtype)
-        start = end = 0
-        for own, others in zip(self.functions.families, other.functions.families, strict=True):
-            result[..., end : end + own] = q[..., start : start + own]
-            start, end = start + own, end + others
-        return result
 
     def tip(self, q: FloatArray) -> FloatArray:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""

@@ -201,9 +201,8 @@ class SpaceBlade(AtConstantRate):
 
     @cached_property
     def _finer(self) -> SpaceBlade:
-        finer = self.model.refined()
-        near = self.model.padded(self.equilibrium, finer)
-        return replace(self, model=finer, near=near)
+        finer = replace(self, model=self.model.refined())
+        return replace(finer, near=self.lifted(self.equilibrium, finer))
 
     @cached_property
     def tip(self) -> FloatArray:
