@@ -30,7 +30,6 @@ from .reduced.tables import paper_table as paper_table
 from .reduced.variants import VARIANTS as VARIANTS
 from .reduced.variants import Variant as Variant
 from .section import Section as Section
-from .section_shapes import Circle as Circle
 from .section_shapes import Ellipse as Ellipse
 from .section_shapes import Rectangle as Rectangle
 from .section_shapes import Tube as Tube

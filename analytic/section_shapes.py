@@ -61,9 +61,9 @@ class SectionShape(Described, ABC, abstract=True):
     def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
         """Return I/A and A of these lengths [m]."""
 
+    @abstractmethod
     def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
-        """Return I out of the plane and the torsion constant J over I; here of a round shape."""
-        return 1.0, 2.0
+        """Return I out of the plane and the torsion constant J over I."""
 
     def out_of_plane(self, own: Gyration) -> OutOfPlane:
         """Return the stiffness out of the plane, refusing what contradicts the blade's `own`."""
@@ -85,10 +85,9 @@ class SectionShape(Described, ABC, abstract=True):
         shear = 0.5 / (1.0 + self.poisson_ratio)
         return OutOfPlane(bending_ratio=across, torsion_ratio=shear * torsion)
 
+    @abstractmethod
     def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
-        """Return the shear coefficients along height and width; here Cowper's of a full circle."""
-        nu = self.poisson_ratio
-        return (6.0 * (1.0 + nu) / (7.0 + 6.0 * nu),) * 2
+        """Return the shear coefficients along height and width."""
 
     def of_material(
         self, youngs_modulus: float, density: float
@@ -214,7 +213,7 @@ class Rectangle(_TwoSided):
 
 @dataclass(frozen=True, kw_only=True)
 class Ellipse(_TwoSided):
-    """A full ellipse with J = π a³b³/(a² + b²) and the half axes a and b.
+    """A full ellipse with J = π a³b³/(a² + b²) and the half axes a and b; a circle has ratio=1.
 
     Parameters
     ----------
@@ -237,28 +236,6 @@ class Ellipse(_TwoSided):
 
     def _torsion(self, ratio: float) -> float:
         return 4.0 / (1.0 + ratio**2)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Circle(SectionShape):
-    """A full circle, with J = 2I.
-
-    Parameters
-    ----------
-    radius : float, optional
-        [m].
-    poisson_ratio : float
-        ν, which tells the shear modulus.
-    """
-
-    radius: float | None = None
-
-    def _fitting(self, own: Gyration) -> dict[str, float]:
-        return {"radius": 2.0 * math.sqrt(own.squared)}
-
-    def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
-        squared = lengths["radius"] ** 2
-        return Gyration(squared=0.25 * squared, area=math.pi * squared)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -293,6 +270,9 @@ class Tube(SectionShape):
                 f"radius = {r:g} m: {2.0 * r:g} m is the full circle"
             )
         return Gyration(squared=0.5 * (r**2 + 0.25 * t**2), area=2.0 * math.pi * r * t)
+
+    def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
+        return 1.0, 2.0
 
     def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
         nu, half = self.poisson_ratio, 0.5 * lengths["wall"]

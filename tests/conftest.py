@@ -106,9 +106,7 @@ def submitted():
             for n in (8, 16, 32)
             for speed in (0.0, 6.0)
         )  # fmt: skip
-        declaration = Declaration(
-            benchmark=VERSION, order=2.0, order_in_step=2.0, **{"code": "Mine", **declared}
-        )
-        return Submission(declaration=declaration, rows=rows, runs=runs)
+        own = {"benchmark": VERSION, "order": 2.0, "order_in_step": 2.0, "code": "Mine"}
+        return Submission(declaration=Declaration(**own | declared), rows=rows, runs=runs)
 
     return make

@@ -25,8 +25,7 @@ GROUPS = (
     _group(
         "Beam and blade",
         "The rotating body: its lengths, sections, masses and damping.",
-        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Circle Tube "
-        "AnyBlade Theory",
+        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Tube AnyBlade Theory",
         analytic__section="OutOfPlane",
     ),
     _group(

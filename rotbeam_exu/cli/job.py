@@ -41,11 +41,11 @@ def _itself(data: Any) -> Any:
     return data
 
 
-def saved(data: xr.Dataset, path: Path, table: xr.Dataset | None = None) -> list[Path]:
-    """Write all as netCDF, and the table, or all, as CSV; return the files."""
+def _saved(data: xr.Dataset, path: Path, table: xr.Dataset) -> list[Path]:
+    """Write all as netCDF, and the table as CSV; return the files."""
     # The endings are added, not replaced: a name may have a point in it.
     whole = save(data, Path(f"{path}.nc"))
-    return [whole, *save_tables(data if table is None else table, Path(f"{path}.csv"))]
+    return [whole, *save_tables(table, Path(f"{path}.csv"))]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,7 +93,7 @@ class Job(Generic[R, T]):
         except UnfinishedError as end:
             raise RuntimeError(self._kept(end)) from end
         data = self.dataset(result)
-        written = saved(data, self.path, self.table(data))
+        written = _saved(data, self.path, self.table(data))
         with telling_what_is_kept(lambda: f"kept: {', '.join(map(str, written))}"):
             shown = self.show(result, data)
             if self.draw is not None:
@@ -111,7 +111,7 @@ class Job(Generic[R, T]):
         """Save the part of a result, marked failed, and return why it ended and where it is."""
         error, (found, word) = end.__cause__, end.args
         part = self.dataset(found).assign_attrs(verdict=f"failed: {error}")
-        kept = saved(part, Path(f"{self.path}-failed"), self.table(part))[0]
+        kept = _saved(part, Path(f"{self.path}-failed"), self.table(part))[0]
         return f"{error}; the part that was {word} is in {kept}, marked failed"
 
 

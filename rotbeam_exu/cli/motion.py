@@ -11,7 +11,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from analytic import AnyBlade, Beam, SpinUp
-from analytic.input_checks import positive, rotation_speed
+from analytic.input_checks import positive
 
 from ..files.beam_file import RunFile, load_run_file
 
@@ -98,7 +98,7 @@ def chosen_motion(
     steps. A given duration or step is kept and the other fitted to it; a chosen duration leaves
     five periods after the ramp.
     """
-    omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else rotation_speed(omega)
+    omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else omega
     ramp_time = chosen_times(beam, _RAMP_TIME)[0] if ramp_time is None else ramp_time
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
     step = None if step is None else positive("step", step, "s")
@@ -167,8 +167,7 @@ def grid_motion(
 
 def slower_than_paper(beam: AnyBlade) -> float:
     """Ratio of the paper's natural frequency to the beam's."""
-    slower = Beam.reference().omega_0 / positive("the beam's ω_0", beam.omega_0, "rad/s")
-    return positive("the paper's ω_0 over the beam's", slower)
+    return Beam.reference().omega_0 / beam.omega_0
 
 
 def _whole_steps(duration: float, step: float) -> int:

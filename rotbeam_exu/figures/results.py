@@ -8,7 +8,6 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 import xarray as xr
-from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.colors import SymLogNorm
 
@@ -16,7 +15,7 @@ from analytic.exact.linear.campbell import Campbell
 from analytic.plotting import FOLD, UNSTABLE, backbone_drawn, draw_response
 
 from ..paper import BLUE, ORANGE, RED
-from .style import colormap, column, cycle, house_axes, ink, label, quantity, ramp, takes_own
+from .style import colormap, column, house_axes, ink, label, quantity, ramp, takes_own
 
 _GROWTH = {"period doubling": ("s", BLUE), "divergence": ("^", RED), "sum resonance": ("o", ORANGE)}
 _GROWTH_LEVELS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # [1/s]
@@ -29,10 +28,7 @@ def campbell(diagram: Campbell, ax: Axes | None = None, *, highest: float | None
 
     Up to the frequency `highest` [rad/s], or all.
     """
-    with (
-        house_axes(ax, column(), 3.2, layout="constrained") as axes,
-        mpl.rc_context({"axes.prop_cycle": cycler(color=cycle())}),
-    ):
+    with house_axes(ax, column(), 3.2) as axes:
         return diagram.plot(axes, highest=highest)
 
 

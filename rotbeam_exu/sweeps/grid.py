@@ -102,14 +102,18 @@ def sweep(
     >>> print(data.amplitude.values.round(4), data.frequency.values.round(4))
     [[0.2758 0.1654]] [[3.0377 3.0361]]
     """
-    cases = _grid(
-        finite_values("omegas", omegas, "rad/s").tolist(),
-        finite_values("ramp_times", ramp_times, "s").tolist(),
-        lambda spin_up: RunCase(
-            beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
-            step=step, frame=frame, loads=loads,
-        ),
-    )  # fmt: skip
+    speeds = finite_values("omegas", omegas, "rad/s").tolist()
+    times = finite_values("ramp_times", ramp_times, "s").tolist()
+    for name, values in (("omegas", speeds), ("ramp_times", times)):
+        if twice := [f"{value:g}" for value, count in Counter(values).items() if count > 1]:
+            raise ValueError(f"{name} holds {', '.join(twice)} more than once")
+    cases = {
+        (omega, ramp_time): RunCase(
+            beam=beam, spin_up=SpinUp(omega=omega, ramp_time=ramp_time), element=element,
+            elements=elements, duration=duration, step=step, frame=frame, loads=loads,
+        )
+        for omega, ramp_time in product(speeds, times)
+    }  # fmt: skip
     if on_error not in ("raise", "record"):
         raise ValueError(f"unknown on_error {on_error!r}; known are 'raise' and 'record'")
     if jobs is not None:
@@ -175,19 +179,6 @@ def failures(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
         if sentence:
             found.setdefault(str(sentence), []).append((omegas[i], times[j]))
     return found
-
-
-def _grid(
-    omegas: list[float], ramp_times: list[float], make: Callable[[SpinUp], RunCase]
-) -> dict[tuple[float, float], RunCase]:
-    for name, values in (("omegas", omegas), ("ramp_times", ramp_times)):
-        twice = [f"{value:g}" for value, count in Counter(values).items() if count > 1]
-        if twice:
-            raise ValueError(f"{name} holds {', '.join(twice)} more than once")
-    return {
-        (omega, ramp_time): make(SpinUp(omega=omega, ramp_time=ramp_time))
-        for omega, ramp_time in product(omegas, ramp_times)
-    }
 
 
 def solved(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, Circle, Ellipse, Rectangle, Tube, linear_modes
+from analytic import Beam, Blade, Ellipse, Rectangle, Tube, linear_modes
 from analytic.section_shapes import Box
 
 E, RHO = 7e10, 2700.0
@@ -25,7 +25,7 @@ def test_a_uniform_strip_is_that_of_its_area_and_second_moment():
 @pytest.mark.parametrize(
     ("shape", "area", "along", "across", "torsion"),
     [
-        (Circle(radius=0.1), 1e-2, 2.5e-5, 2.5e-5, 5e-5),
+        (Ellipse(height=0.2, width=0.2), 1e-2, 2.5e-5, 2.5e-5, 5e-5),
         (Ellipse(height=0.4, width=0.2), 2e-2, 2e-4, 5e-5, 1.6e-4),
         (Tube(radius=0.15, wall=0.1), 3e-2, 3.75e-4, 3.75e-4, 7.5e-4),  # radii of 0.2 and 0.1
     ],
@@ -54,11 +54,13 @@ def test_a_box():
 
 def test_the_shear_coefficients_are_cowpers():
     """Numbers of the table in his paper, at ν = 0.3: 0.850, 0.886 and, of a thin tube, 0.531."""
-    shapes = Rectangle(height=2.0, width=1.0), Circle(radius=1.0), Tube(radius=1.0, wall=1e-4)
+    shapes = (
+        Rectangle(height=2.0, width=1.0),
+        Ellipse(height=2.0, width=2.0),
+        Tube(radius=1.0, wall=1e-4),
+    )
     rows = [shape.of_material(2.6, 1.0)[0] for shape in shapes]  # G = 1
     assert [row[1] / row[0] * 2.6 for row in rows] == pytest.approx([0.850, 0.886, 0.531], abs=5e-4)
-    round_one = Ellipse(height=2.0, width=2.0).of_material(2.6, 1.0)[0]
-    assert round_one == pytest.approx(rows[1], rel=1e-12)
 
 
 def test_stations_may_differ_in_shape_and_material():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, Circle, Ellipse, Rectangle, Section, Tube
+from analytic import Beam, Blade, Ellipse, Rectangle, Section, Tube
 from analytic.description import describe, from_description
 from analytic.section import OutOfPlane
 from analytic.section_shapes import Gyration, SectionShape
@@ -56,11 +56,10 @@ def test_torsion_of_the_ellipse(ratio):
 
 
 def test_a_round_ellipse_is_a_circle_and_a_thick_tube():
-    circle = UNIT.with_shape(Circle())
-    assert UNIT.with_shape(Ellipse(ratio=1.0)) == circle
+    circle = UNIT.with_shape(Ellipse(ratio=1.0))
     assert UNIT.with_shape(Tube()) == circle
     assert circle.section.out_of_plane == OutOfPlane(bending_ratio=1.0, torsion_ratio=1.0 / 1.3)
-    UNIT.with_shape(Circle(radius=2e-3))
+    UNIT.with_shape(Ellipse(height=4e-3, ratio=1.0))
 
 
 def test_they_are_values_and_travel(beam):
@@ -129,6 +128,9 @@ class Diamond(SectionShape):
 
     def _ratios(self, lengths):
         return 1.0, 12.0 * 0.1406
+
+    def _shear(self, lengths):
+        return 5.0 / 6.0, 5.0 / 6.0
 
 
 def test_a_new_shape_is_one_class():

@@ -23,12 +23,6 @@ def lines(beam):
     return comparison.backbones.backbones(beam, (2.0, 4.0, 6.0, 8.0), AMPLITUDES)
 
 
-@pytest.fixture(scope="session")
-def grid(tmp_path_factory):
-    """The 24 cases on all meshes; minutes."""
-    return comparison.figure_14(cache=tmp_path_factory.mktemp("cache"))
-
-
 def golden(name):
     return pd.read_csv(GOLDEN / f"{name}.csv", comment="#")
 
@@ -84,15 +78,10 @@ def test_models_and_exact_beam_are_taken_at_one_amplitude(beam, lines):
         assert (np.abs(right) < np.abs(wrong)).all()
 
 
-def point_of_the_papers_mesh(beam, ramp_time, **options):
-    return comparison.finite_element_points(
-        beam, omegas=(6.0,), ramp_times=(ramp_time,), mesh="paper", jobs=1, **options
-    ).squeeze()
-
-
 @pytest.mark.parametrize("step", [4e-3, pytest.param(1e-3, marks=pytest.mark.slow)])
 def test_the_bar_of_a_point_holds_the_exact_backbone(beam, step):
-    here = point_of_the_papers_mesh(beam, 3.0, step=step, duration=9.0)
+    run = {"omegas": (6.0,), "ramp_times": (3.0,), "step": step, "duration": 9.0}
+    here = comparison.finite_element_points(beam, **run, mesh="paper", jobs=1).squeeze()
     exact = periodic_orbits(beam, 6.0, [here["amplitude"].item()])
     distance = abs(here["ratio"].item() - exact.frequency[0] / exact.omega_n)
     assert here["estimator_error"] < 0.1 * here["ratio_error"]
@@ -202,8 +191,9 @@ def test_model_budget_adds_up_and_blames_the_truncation(beam):
     assert np.abs(budget["error"].sel(model="FrM", source="Coriolis modes")) < 1e-15
 
 
-@pytest.mark.slow
-def test_the_grid_agrees_with_the_golden_data(grid):
+@pytest.mark.slow  # the 24 cases on all meshes: minutes
+def test_the_grid_agrees_with_the_golden_data(tmp_path):
+    grid = comparison.figure_14(cache=tmp_path)
     kept = golden("figure_14-amplitude")
     found = grid[["amplitude", "ratio", "ratio_error"]].to_dataframe().reset_index()
     # Deterministic on one machine; another's round-off grows in 15 000 steps.

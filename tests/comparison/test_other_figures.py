@@ -77,17 +77,13 @@ def test_figure_4_orbits_close(data_of):
     assert data["panel"].to_numpy().tolist() == list("aaabbb")
 
 
-def test_figure_8_is_bounded_by_its_limits(data_of):
-    ratio = data_of(8)["ratio"]
+def test_figure_8_is_bounded_by_its_limits_and_has_the_exact_beam(data_of):
+    data, ratio = data_of(8), data_of(8)["ratio"]
     assert (ratio[0] >= 1.0).all()
     assert (ratio[2] <= ratio[1]).all()
     # λ_ω → 3.3504/2.3901 as Ω → ∞, Eq. 64.
     limit = 1.0 - 3.3504 / 2.3901 * 0.4**2
     assert ratio[2, -1].item() == pytest.approx(limit, abs=1e-4)
-
-
-def test_figure_8_draws_the_exact_beam_beside_the_model(data_of):
-    data = data_of(8)
     # At rest the model is right, to its fourth order; in rotation it is far off.
     model = data["ratio"].sel(amplitude=0.4, method="nearest").to_numpy()
     exact = data["exact"].sel(exact_amplitude=0.4, method="nearest").to_numpy()

@@ -22,8 +22,7 @@ PLAIN = {
         "analytic.reduced.model.ReducedModel rotbeam_exu.runs.oscillation.SteadyOscillation"
     ),
     "loads and shapes that are used as TipForce and Rectangle are": (
-        "analytic.Circle analytic.DistributedForce analytic.Ellipse analytic.SpeedRipple "
-        "analytic.Tube"
+        "analytic.DistributedForce analytic.Ellipse analytic.SpeedRipple analytic.Tube"
     ),
     "errors, which their message explains": (
         "analytic.AmplitudeNotReachedError analytic.ResponseNotReachedError "

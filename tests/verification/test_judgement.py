@@ -19,7 +19,7 @@ from rotbeam_exu.verification.submission import (
     Run,
     Submission,
 )
-from rotbeam_exu.verification.verify import Entry, handed_in, verify
+from rotbeam_exu.verification.verify import Entry, verify
 
 S1 = SpinUp(omega=6.0, ramp_time=3.0)
 
@@ -123,14 +123,12 @@ def test_a_code_that_fails_says_why():
     assert len(found.remarks["S"]) == 1
 
 
-def test_a_reference_that_fails_is_not_charged_to_the_code(made_of_the_exact_answer, monkeypatch):
-    submission = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
-
+def test_a_reference_that_fails_is_not_charged_to_the_code(whole, monkeypatch):
     def no_history(case, theory):
         raise AmplitudeNotReachedError("no orbit")
 
     monkeypatch.setattr(judgement, "reference", no_history)
-    found = judged(submission)
+    found = judged(whole)
     assert {one.outcome for one in found.findings["S1"].values()} == {Outcome.UNDECIDED}
     assert found.findings["S1"]["history"].note == "no reference: no orbit"
     assert not found.passed
@@ -153,11 +151,11 @@ def history_of(submission):
     return judged(submission, cases={"S1": replace(CASES["S1"], oscillates=False)})
 
 
-def test_an_order_below_the_declared_one_is_told_and_decides_nothing(made_of_the_exact_answer):
-    found = judge(made_of_the_exact_answer(order=4.0))
-    assert found.orders["S"]["mesh"].low
-    assert not found.orders["S"]["step"].low
-    assert str(found.orders["S"]["mesh"]) == "2.0 of 4"
+def test_an_order_below_the_declared_one_is_told_and_decides_nothing(submitted):
+    found = history_of(submitted(order=4.0))
+    assert found.orders["S1"]["mesh"].low
+    assert not found.orders["S1"]["step"].low
+    assert str(found.orders["S1"]["mesh"]) == "2.0 of 4"
     assert found.passed
 
 
