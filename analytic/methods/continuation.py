@@ -27,7 +27,6 @@ _TRUNCATED = 5e-6  # residual of harmonics left out, which leave 1e-6 of a respo
 _FEWEST_HARMONICS = 6
 MOST_FUNCTIONS = 128
 """For θ; enough for the smallest orbits up to w̄ = 1000."""
-_MOST_UNKNOWNS = 4000  # whose Jacobian takes 128 MB
 _LARGEST_FACTOR = 2.5  # from one amplitude to the next
 _SAME_AMPLITUDE = 1e-14  # steps add up to 0.3 within round-off
 _GUESSED_FROM = 4  # nodes
@@ -41,6 +40,7 @@ class Care(NamedTuple):
     harmonics: int = 64  # at most
     halvings: int = 5  # of a step that finds nothing
     functions: int = 128  # at most
+    unknowns: int = 4000  # at most, whose Jacobian takes 128 MB
     tail: float = 1.0  # times `RESIDUAL_BOUND`, what kinks of the section may leave
 
 
@@ -219,7 +219,7 @@ def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
     if last and nearly and meets_the_equations(orbit, care):
         return None
     larger = _on_more_harmonics(orbit, care.harmonics)
-    if last or _too_large(larger):
+    if last or _too_large(larger, care):
         raise NoOrbitError(f"{orbit.harmonics} harmonics leave {left}")
     return larger
 
@@ -231,7 +231,7 @@ def _on_more_harmonics(orbit: Orbit[S], most: int) -> Orbit[S]:
 
 def _on_more_functions(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S]:
     larger = orbit.on(orbit.system.refined())
-    if larger.system.functions > min(care.functions, MOST_FUNCTIONS) or _too_large(larger):
+    if larger.system.functions > min(care.functions, MOST_FUNCTIONS) or _too_large(larger, care):
         raise NoOrbitError(
             f"{orbit.system.functions} functions meet the equations of motion to "
             f"{orbit.residual:.1e} only, not to {care.tail * RESIDUAL_BOUND:g}",
@@ -241,5 +241,5 @@ def _on_more_functions(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S]:
     return larger
 
 
-def _too_large(orbit: Orbit[Any]) -> bool:
-    return bool(packed(orbit.coefficients, orbit.parts).size > _MOST_UNKNOWNS)
+def _too_large(orbit: Orbit[Any], care: Care) -> bool:
+    return bool(packed(orbit.coefficients, orbit.parts).size > care.unknowns)

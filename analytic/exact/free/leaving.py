@@ -43,7 +43,8 @@ if TYPE_CHECKING:
 _HARMONICS = (8, 12, 18, 27, 40)  # of the planar orbit at the birth, until it settles
 _SETTLED = 1e-7  # of the logarithm of its amplitude
 _LOCATED = 1e-9  # of its amplitude
-_CARE = Care(drift=1e-9, harmonics=40)  # for each period
+# A strip in rotation flaps in short waves. So many unknowns take 2 GB, and 15 s for an orbit.
+_CARE = Care(drift=1e-9, harmonics=120, unknowns=9000)
 _BEGIN, _LONGEST = 0.005, 0.2  # steps of the arclength, over the size of the planar orbit
 
 
