@@ -76,8 +76,12 @@ def columns(
         "axial_strain": (strain, "1", "largest axial strain along the beam"),
     }  # fmt: skip
     values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], frame)
+    t, rate_dot = time / units.time, units.time**2 * case.rotation.acceleration(time)
+    if setting != 1.0:
+        across = _torque_across(built, setting, t, angle, coordinates, relative, rate, rate_dot)
+        torque, unit, label = values["clamp_torque"]
+        values["clamp_torque"] = setting * torque + across, unit, label
     if case.exchanges_energy:
-        t, rate_dot = time / units.time, units.time**2 * case.rotation.acceleration(time)
         power = built.loading.power(t, angle, relative) - rate_dot * momentum
         if built.chain.dissipation is not None:
             power = power - built.chain.dissipation(coordinates, relative)
@@ -129,10 +133,38 @@ def _clamp_loads(
         for kind, unit, axes, along in kinds
         for axis, column in zip(axes, along.T, strict=True)
     }
-    if model.setting(case.beam) == 1.0:  # else what holds it in its plane of bending has a share
-        torque = -np.sum(onto * model.spun(root), axis=1)
-        values["clamp_torque"] = torque, "N m", "torque of the clamp about the axis of rotation"
+    torque = -np.sum(onto * model.spun(root), axis=1)
+    values["clamp_torque"] = torque, "N m", "torque of the clamp about the axis of rotation"
     return values
+
+
+def _torque_across(
+    built: RotatingBeam,
+    setting: float,
+    t: FloatArray,
+    angle: FloatArray,
+    coordinates: FloatArray,
+    relative: FloatArray,
+    rate: FloatArray,
+    rate_dot: FloatArray,
+) -> FloatArray:
+    """Return the torque of what holds a set blade in its plane of bending, (samples,).
+
+    d(s²w∫x²dm)/dt, and the moment c s²w²∫xy dm of the centrifugal forces along the clamp's line,
+    less that of the loads across the plane.
+    """
+    model, samples = built.model, rate.size
+    x, x_dot, turned = (
+        v.reshape(samples, -1)
+        for v in (coordinates * model.radial, relative * model.radial, model.spun(coordinates))
+    )
+    second, change, mixed = (np.sum((x @ built.mass) * v, axis=1) for v in (x, x_dot, turned))
+    along = rate_dot * second + 2.0 * rate * change + setting * rate**2 * mixed
+    lever = model.spun(coordinates * model.radial).reshape(samples, -1)
+    # A weight W in the plane of rotation acts with cW in that of bending; s²W = (1 + c)(W - cW).
+    weight = built.loading.forces(t, angle, 1.0) - built.loading.forces(t, angle)
+    held = (1.0 + setting) * np.sum(lever * weight, axis=1)
+    return np.asarray((1.0 - setting**2) * along - held)
 
 
 def twist(turns: FloatArray) -> FloatArray:

@@ -71,12 +71,16 @@ class Loading:
     def __bool__(self) -> bool:
         return self._acts
 
-    def forces(self, t: FloatArray, angle: FloatArray) -> FloatArray:
-        """Return the nodal forces of all loads in the frame of the clamp, (samples, n)."""
+    def forces(self, t: FloatArray, angle: FloatArray, setting: float | None = None) -> FloatArray:
+        """Return the nodal forces of all loads in the frame of the clamp, (samples, n).
+
+        As they would be if the blade were set otherwise, where a `setting` is given.
+        """
         total = np.zeros((t.size, self._drag.shape[0]))
+        setting = self._setting if setting is None else setting
         for load, onto in self._pushes:
             phase = (load.frequency or 0.0) * t
-            force = load.force(phase, angle, self._setting)
+            force = load.force(phase, angle, setting)
             parts = np.stack([force.real, force.imag, load.lift(phase)], axis=1)
             total += parts[:, : len(onto)] @ onto
         return total
