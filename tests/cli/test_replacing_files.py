@@ -92,7 +92,7 @@ def stopped(*_, **__):
     ("command", "room", "name"),
     [
         ("sweep", grid, "sweep"),
-        ("explore", explorer, "explorer_page"),
+        ("explore", explorer, "explorer_data"),
         ("compare", comparison, "figure_14"),
         ("verify --element cable", verify, "verify"),
         ("reference", analytic, "spin_up_response"),
