@@ -33,8 +33,8 @@ class Orbit(Generic[S]):
     amplitude: float = math.nan  # peak of the gauge
     peak_phase: float = 0.5 * np.pi
     frequency_error: float = math.nan  # relative change of Ω under one more refinement, if asked
-    # Of the lowest point of a free orbit without symmetry, whose amplitude is half the distance
-    # between both; NaN of others.
+    # Lowest point of a free orbit without symmetry, whose amplitude is half the distance of both;
+    # NaN of others.
     low_phase: float = math.nan
 
     @property

@@ -107,7 +107,7 @@ def _print(diagram: Campbell) -> None:
     """Print frequencies over speed, and the crossings, with as many digits as are known."""
 
     def column(values: Iterable[float], plane: Plane) -> list[str]:
-        # Of torsion four, for the section may be kept from warping.
+        # Torsion has four digits, for the section may be kept from warping.
         return formatted(values, "#.4g" if plane == "torsion" else ".6f")
 
     omega = "ω [rad/s]"

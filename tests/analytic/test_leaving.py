@@ -19,7 +19,7 @@ STRIP = Beam.reference().with_shape(Rectangle())
 SOFT = Theory(extension=False, trapeze=False)
 FIRST = 3.5160152685  # first frequency of the cantilever
 HARDENING = 0.019383  # of its planar orbits, ω_NL = ω (1 + this a²)
-# Of a step: tangents of steps before serve poorly where flap has short waves.
+# Tangents of steps before serve poorly where flap has short waves.
 STEP = Newton(converged=1e-14, stagnates=1e-12, slow=0.3, steps=30)
 
 

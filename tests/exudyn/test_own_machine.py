@@ -315,7 +315,7 @@ def test_a_body_is_no_clamp(beam):
 
 
 def test_the_settings_are_those_of_simulate(beam):
-    """Of a blade with all there is; in any units: forces in mm and t are 1000 times those in SI."""
+    """A blade with all there is, in any units: forces in mm and t are 1000 times those in SI."""
     blade = beam.with_hub_radius(0.5).with_tip_mass(0.1).with_damping(Damping(external=0.02))
     loads = [Gravity(2.0), SpeedRipple(amplitude=0.1, frequency=5.0)]
     loads += [TipForce(amplitude=0.3, frequency=2.0)]

@@ -46,7 +46,7 @@ def test_the_cable(tmp_path):
 
 
 def test_tolerances_are_judged_as_steps_are(made_of_the_exact_answer, tmp_path):
-    """Those of a step control that are as long as the steps have the same limits and orders.
+    """Runs of a step control whose steps are as long have the same limits and orders.
 
     Fifteen seconds hold no whole number of 16 ms: what is beyond is left out in either way.
     """
