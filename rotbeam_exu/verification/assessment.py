@@ -15,8 +15,20 @@ from ..runs.oscillation import SteadyOscillation
 WORTH = 1e-2
 """Share of the nonlinear effect that an error may reach before it is warned of."""
 
+_STAYS = 0.5
+"""Share of the error of ω_n that twice the elements leave, above which it is not the mesh's.
+
+Elements of second order leave a quarter, of fourth a sixteenth.
+"""
+
 _SMALL = 0.05
 """Amplitude over L whose nonlinear effect, 5e-5 or less of the frequency, few meshes show."""
+
+_FINEST = 128
+"""Elements above which a mesh is not compared with a finer one: 1024 take minutes."""
+
+_NOISE = 1e-7
+"""Relative error of ω_n below which a finer mesh need not improve it: of the eigenvalues."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,8 +39,9 @@ class Assessment:
     ----------
     theory : str
         Bernoulli-Euler, or Timoshenko for elements with shear and rotary inertia.
-    omega_n, exact_omega_n : float
-        Natural frequency of the mesh, and of the exact beam [rad/s].
+    omega_n, refined_omega_n, exact_omega_n : float
+        Natural frequency of the mesh, of one twice as fine, NaN of a very fine one, and of the
+        exact beam [rad/s].
     amplitude, frequency : float
         Amplitude over L of the run, and its nonlinear frequency ω_NL [rad/s].
     exact_frequency : float
@@ -39,6 +52,7 @@ class Assessment:
 
     theory: str
     omega_n: float
+    refined_omega_n: float
     exact_omega_n: float
     amplitude: float
     frequency: float
@@ -52,6 +66,16 @@ class Assessment:
         That of ω_NL grows with the amplitude: 16 cables at 6 rad/s have 1.25e-5, at 0.32 L 1.8e-5.
         """
         return self.omega_n / self.exact_omega_n - 1.0
+
+    @property
+    def refined_error(self) -> float:
+        """Relative error of ω_n of a mesh twice as fine."""
+        return self.refined_omega_n / self.exact_omega_n - 1.0
+
+    @property
+    def elsewhere(self) -> bool:
+        """Whether a finer mesh would not help: its limit is another frequency."""
+        return abs(self.refined_error) > max(_STAYS * abs(self.mesh_error), _NOISE)
 
     @property
     def error(self) -> float:
@@ -79,7 +103,8 @@ class Assessment:
             (
                 "exact ω_n",
                 f"{self.exact_omega_n:.6f} rad/s ({self.theory}); "
-                f"error of the run's {self.mesh_error:+.1e}: the mesh",
+                f"error of the run's {self.mesh_error:+.1e}: "
+                f"{'another limit' if self.elsewhere else 'the mesh'}",
             )
         ]
         if self.why_not:
@@ -99,15 +124,27 @@ class Assessment:
         """Return a sentence for the mesh and the step, where its error hides the effect."""
         if self.why_not:
             return []
-        ramp = f", or a ramp that leaves more than {self.amplitude:.2g} L"
-        of_mesh = f"take more elements than {elements}"
-        of_step = f"take a smaller step than {step:g} s, then more elements than {elements}"
+        small = f", or a ramp that leaves more than {self.amplitude:.2g} L" * (
+            self.amplitude < _SMALL
+        )
+        mesh = ("the mesh", self.mesh_error, f"take more elements than {elements}")
+        if self.elsewhere:
+            mesh = (
+                "ω_n",
+                self.mesh_error,
+                f"with twice the elements it is {self.refined_error:+.1e}, so that no mesh mends "
+                f"it; what this element tends to is not the {self.theory} beam",
+            )
         return [
             f"the error of {what} is {error:+.1e} of the frequency, {self._share(error)} the "
-            f"nonlinear effect, {self.effect:+.1e}: {remedy}{ramp * (self.amplitude < _SMALL)}"
+            f"nonlinear effect, {self.effect:+.1e}: {remedy}{small}"
             for what, error, remedy in (
-                ("the mesh", self.mesh_error, of_mesh),
-                ("the step, and the mesh in the swing,", self.step_error, of_step),
+                mesh,
+                (
+                    "the step, and the mesh in the swing,",
+                    self.step_error,
+                    f"take a smaller step than {step:g} s, then more elements than {elements}",
+                ),
             )
             if abs(error) > WORTH * abs(self.effect)
         ]
@@ -143,12 +180,16 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
         except (RuntimeError, ValueError) as error:
             why_not = str(error)
 
-    found = natural_frequencies(
-        case.beam, case.omega, element=case.element, elements=case.elements, count=1
-    )
+    def omega_n(elements: int) -> float:
+        if elements > max(2 * _FINEST, case.elements):
+            return math.nan
+        of = case.beam, case.omega
+        return float(natural_frequencies(*of, element=case.element, elements=elements, count=1)[0])
+
     exact_modes = analytic.linear_modes(case.beam, case.omega, 1, theory=theory)
     return Assessment(
-        theory=theory.name, omega_n=float(found[0]),
+        theory=theory.name, omega_n=omega_n(case.elements),
+        refined_omega_n=omega_n(2 * case.elements),
         exact_omega_n=float(exact_modes.frequencies[0]), amplitude=steady.amplitude,
         frequency=steady.frequency, exact_frequency=exact_frequency, why_not=why_not,
     )  # fmt: skip

@@ -8,7 +8,7 @@ import pytest
 
 from analytic import Beam, SpinUp, linear_modes, periodic_orbits
 from rotbeam_exu.fem.case import RunCase
-from rotbeam_exu.fem.elements import Exact
+from rotbeam_exu.fem.elements import Ancf3, Exact
 from rotbeam_exu.verification.assessment import assess
 
 OMEGA = 6.0
@@ -34,12 +34,20 @@ def test_shear_and_rotary_inertia_are_no_error_of_an_element_that_has_them():
     # They are worth 4.8e-5, which no mesh would take away.
     assert found.exact_omega_n / bare - 1.0 == pytest.approx(-4.8e-5, rel=0.02)
     assert 0.0 < found.mesh_error < 1e-5
+    assert not found.elsewhere
+    assert abs(found.refined_error / found.mesh_error) == pytest.approx(1.0 / 16.0, rel=0.2)
+
+
+def test_an_element_that_locks_is_not_told_to_take_a_finer_mesh():
+    sentence, *_ = assessed(4, element=Ancf3(law="coupled")).warnings(4, 1e-3)
+    assert "no mesh mends it" in sentence
+    assert "more elements" not in sentence
 
 
 def test_an_exact_run_on_an_exact_mesh_has_no_error():
     orbit = periodic_orbits(Beam.reference(), OMEGA, [0.2])
     found = assessed(4, frequency=float(orbit.frequency[0]), amplitude=0.2)
-    found = replace(found, omega_n=found.exact_omega_n)
+    found = replace(found, omega_n=found.exact_omega_n, refined_omega_n=found.exact_omega_n)
     assert found.error == 0.0
     assert found.effect == pytest.approx(orbit.frequency[0] / orbit.omega_n - 1.0, abs=1e-12)
     assert found.warnings(16, 1e-3) == []
@@ -49,7 +57,7 @@ def test_each_error_above_a_hundredth_of_the_effect_is_named_with_its_own_remedy
     found = assessed(16)
     effect = found.effect
     exact = found.exact_omega_n
-    fine = replace(found, omega_n=exact, frequency=found.exact_frequency)
+    fine = replace(found, omega_n=exact, refined_omega_n=exact, frequency=found.exact_frequency)
     assert fine.warnings(16, 1e-3) == []
     for share, warned in ((0.009, False), (0.011, True)):
         mesh = replace(
