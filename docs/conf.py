@@ -178,7 +178,7 @@ def write_interactive(app: Any) -> None:
     ending = "mp4" if FFMpegWriter.isAvailable() else "gif"
     rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
     for lines in (
-        ("explore --cache _build/runs --out _static/explorer.html",),  # takes all cores
+        ("explore --cache _build/runs --force --out _static/explorer.html",),  # takes all cores
         (
             f"animate --omega 6 --ramp-time 3 --force --out _static/figures/spin_up.{ending}",
             "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
