@@ -29,7 +29,7 @@ data = comparison.growth_out_of_plane(
 ends = {2.0: [0.098, 0.119, 0.166, 0.219, 0.276], 4.0: [0.156, 0.190, 0.268], 6.0: [0.196, 0.231]}
 points = np.transpose([(omega, a) for omega, found in ends.items() for a in found])
 ax = figures.growth_out_of_plane(data)
-ax.plot(*points, "wo", ms=3.2, mec="black", mew=0.7, clip_on=False)
+_ = ax.plot(*points, "wo", ms=3.2, mec="black", mew=0.7, clip_on=False)
 
 # %%
 # The limit at a speed, and the tube where the spin-ups to 4 rad/s end:
