@@ -11,9 +11,9 @@ and 56) and fewer in torsion (84 and 72) and along the axis (34 and 30). Their s
 1 s on 1.25 ms, and from 1.25 s on 0.6 ms.
 
 Two other cases start 1e-6 L out of the plane, by the exact blade alone. One is ``exact 136 2e-3
-small``, ``112`` and ``88``, which took 68, 39 and 23 minutes of CPU: it has more functions from 0.6 s on,
-of which 76 are for lag with 136, and steps of 0.6 ms from 1 s on. The other is ``exact 40 2.5e-3
-mildest`` and ``exact 32 2.5e-3 mildest``.
+small``, ``112`` and ``88``, which took 68, 39 and 23 minutes of CPU. It has more functions from
+0.6 s on, with 136 of them 76 for lag, and steps of 0.6 ms from 1 s on. The other is ``exact 40
+2.5e-3 mildest`` and ``exact 32 2.5e-3 mildest``.
 """
 
 import sys
