@@ -214,7 +214,7 @@ def test_the_plane_is_left_above_the_limit(planar):
     # The tension holds the blade back, so that more stays in the plane as it turns faster; from
     # one speed to the next a tongue may take some of it.
     highest = [np.flatnonzero(row < 0.02).max(initial=-1) for row in rate.to_numpy()]
-    assert np.all(np.diff(highest[::4]) > 0)
+    assert np.all(np.diff(highest[::4]) >= 0)
     k = highest[int(np.flatnonzero(rate["omega"] == 4.0)[0])]
     assert rate["a"][k] < limit < rate["a"][k + 2]
     assert (rate.sel(a=0.3, method="nearest") > 10.0).all()
