@@ -25,8 +25,8 @@ import numpy as np
 
 from analytic import Beam, Rectangle, SpinUp, Theory, linear_modes
 from analytic.arrays import FloatArray
+from analytic.exact.beam.steady import on_more
 from analytic.exact.driven.transient import integrated
-from analytic.exact.space.continuum import SpaceContinuum
 from analytic.exact.space.modes import flap_shape
 from analytic.exact.space.steady import space_continuum
 from analytic.motion import SpeedChange
@@ -66,15 +66,6 @@ def write(code: str, time: FloatArray, tip: FloatArray, twist: FloatArray) -> No
     np.savetxt(HERE / f"{code}.csv", rows, "%.10g", ",", header=HEADER, comments="")
 
 
-def on_more(states: FloatArray, fewer: SpaceContinuum, model: SpaceContinuum) -> FloatArray:
-    """Return states (2, n) on as many functions as a finer model has."""
-    parts = np.split(states, np.cumsum(fewer.families)[:-1], axis=-1)
-    more = np.subtract(model.families, fewer.families)
-    return np.concatenate(
-        [np.pad(part, ((0, 0), (0, n))) for part, n in zip(parts, more, strict=True)], axis=-1
-    )
-
-
 @one_thread
 def exact(functions: str, step: str = "1.25e-3", case: str = "") -> None:
     """Radau steps of order 15, by functions for each curvature.
@@ -91,7 +82,7 @@ def exact(functions: str, step: str = "1.25e-3", case: str = "") -> None:
             raise SystemExit("Newton's method fails: take a shorter step")
         rows.append(np.column_stack((found.tip, found.twist))[bool(rows) :])
         fewer, model = model, space_continuum(STRIP, THEORY, int(functions))
-        q, rates = on_more(found.state[:2, -1], fewer, model)
+        q, rates = on_more(found.state[:2, -1], fewer.families, model.families)
     name = "_".join(filter(None, ("exact", case, functions)))
     table = np.concatenate(rows)
     write(name, times, table[:, :3], table[:, 3])

@@ -65,7 +65,7 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
 
 def _netcdf(data: xr.Dataset) -> bytes:
     arrays = [
-        name for name, one in data.variables.items() if one.size > 1 and one.dtype.kind in "fi"
+        name for name, one in data.variables.items() if one.size > 1 and one.dtype.kind in "fiu"
     ]
     # HDF5 then refuses an array of which a bit has changed.
     checked = {name: {"fletcher32": True} for name in arrays}

@@ -19,6 +19,7 @@ from analytic import Gravity
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_array
 
+from ..files.results import whole_file
 from .cases import CASES, VERSION, Asked, Case
 from .judgement import THRESHOLDS
 from .references import reference
@@ -36,7 +37,7 @@ SPACING = 0.01
 
 
 def write_kit(folder: str | os.PathLike[str]) -> Path:
-    """Write the kit, and return the folder.
+    """Write the kit, each file whole or not at all, and return the folder.
 
     Parameters
     ----------
@@ -58,7 +59,8 @@ def write_kit(folder: str | os.PathLike[str]) -> Path:
     for name, content in contents.items():
         path = target / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
+        with whole_file(path) as partial:
+            partial.write_bytes(content)
     return target
 
 

@@ -81,6 +81,13 @@ def _unit(beam: AnyBlade, theory: Theory) -> UnitBlade:
     return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / beam.slenderness))
 
 
+def on_more(q: FloatArray, own: tuple[int, ...], others: tuple[int, ...]) -> FloatArray:
+    """Return coordinates of the same shape where each family has as many functions or more."""
+    parts = np.split(q, np.cumsum(own)[:-1], axis=-1)
+    more = [[(0, 0)] * (q.ndim - 1) + [(0, n - m)] for m, n in zip(own, others, strict=True)]
+    return np.concatenate(list(map(np.pad, parts, more)), axis=-1)
+
+
 class Discretized:
     """Size and refinement of a discretized blade, in the plane or in space."""
 
@@ -98,10 +105,7 @@ class Discretized:
 
     def lifted(self, q: FloatArray, finer: Self) -> FloatArray:
         """Return the coordinates of the same shape on more functions, along the last axis."""
-        own, others = self.model.families, finer.model.families
-        parts = np.split(q, np.cumsum(own)[:-1], axis=-1)
-        more = [[(0, 0)] * (q.ndim - 1) + [(0, n - m)] for m, n in zip(own, others, strict=True)]
-        return np.concatenate(list(map(np.pad, parts, more)), axis=-1)
+        return on_more(q, self.model.families, finer.model.families)
 
     def by(self, *drive: Any) -> Driven:
         """Return what drives it, where a drive acts at phases (samples,) and a frequency."""

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ...files.results import whole_file
 from ..cases import CASES, Asked, Case
 from ..history import FREE_FOR, free_frequency
 from ..submission import Row, Run, Submission
@@ -162,7 +163,8 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
             raise FileExistsError(f"{root} holds {name} already: choose another folder")
     root.mkdir(parents=True, exist_ok=True)
     for file, text in texts.items():
-        (root / file).write_text(text, encoding="utf-8", newline="\n")
+        with whole_file(root / file) as partial:
+            partial.write_text(text, encoding="utf-8", newline="\n")
     for run in named:
         if not run.failure:
             _write_history(run, root)
@@ -174,7 +176,10 @@ def _write_history(run: Run, folder: Path) -> None:
     held = "time", *CASES[run.case].columns
     numbers = np.column_stack([run.time, run.q])
     (folder / run.case).mkdir(exist_ok=True)
-    with (folder / run.file).open("w", encoding="utf-8", newline="\n") as out:
+    with (
+        whole_file(folder / run.file) as partial,
+        partial.open("w", encoding="utf-8", newline="\n") as out,
+    ):
         # NumPy's words of a number are its shortest ones that read back the same.
         np.savetxt(out, numbers, "%s", ",", header=",".join(held), comments="")
 
