@@ -31,7 +31,7 @@ _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1
 class Multipliers(NamedTuple):
     """Multipliers (2 modes,), the lowest modes first; the first two of a free orbit are 1.
 
-    The largest in size is one of them, or of all where the method damps the others.
+    `largest` is the largest size, of these or, where the method damps the others, of all.
     """
 
     values: ComplexArray
@@ -96,7 +96,7 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     order = np.argsort(place)[:kept]
     trivial = np.ones(0 if constants is None else 2)
     found = np.concatenate((trivial, values[order])).astype(np.complex128)
-    return Multipliers(found, float(np.abs(values if constants is None else found).max()))
+    return Multipliers(found, float(np.abs(values if stiff else found).max()))
 
 
 def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:

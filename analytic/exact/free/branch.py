@@ -111,9 +111,9 @@ class OrbitSet:
     def stable(self) -> NDArray[np.bool_]:
         """Whether small disturbances in the plane do not grow, (orbits,).
 
-        No Floquet multiplier lies outside the unit circle: of a free orbit for the lowest six
-        modes, which the integration over a period resolves. Of motion out of the plane
-        `planar_stability` tells.
+        No Floquet multiplier lies outside the unit circle: of a free orbit in the plane for the
+        lowest six modes, which the integration over a period resolves. Of motion out of the
+        plane `planar_stability` tells.
         """
         return np.array([found.stable(self._tolerance) for found in self._stability])
 
