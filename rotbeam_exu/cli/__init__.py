@@ -40,6 +40,12 @@ _COMMANDS = (
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 
+_ROOMS = {
+    "compare": "paper", "figure": "paper", "table": "paper", "kit": "judge", "verify": "judge",
+    "schema": "doctor",
+}  # fmt: skip
+"""Modules of the commands that have none of their own name."""
+
 
 def documented(command: str) -> tuple[str, tuple[str, ...]]:
     """Return a command's docstring ahead of its parameters, and its examples.
@@ -47,7 +53,8 @@ def documented(command: str) -> tuple[str, tuple[str, ...]]:
     The examples are the lines of the numpydoc section that begin with "$": command lines, which
     `tests/cli/test_examples.py` runs.
     """
-    source = Path(__file__).with_name(f"{command}.py").read_text(encoding="utf-8")
+    room = Path(__file__).with_name(f"{_ROOMS.get(command, command)}.py")
+    source = room.read_text(encoding="utf-8")
     # Not by a parser: all commands' are read at each call of any, and --help is to be quick.
     (text,) = re.findall(rf'^def {command}\(.*?^    """(.*?)"""$', source, re.DOTALL | re.MULTILINE)
     said, _, rest = inspect.cleandoc(text).partition("Examples\n---")
@@ -58,7 +65,8 @@ def documented(command: str) -> tuple[str, tuple[str, ...]]:
 for _order, _command in enumerate(_COMMANDS):
     _help, _examples = documented(_command)
     app.command(
-        f"{__name__}.{_command}:{_command}", name=_command, help=_help, sort_key=_order,
+        f"{__name__}.{_ROOMS.get(_command, _command)}:{_command}",
+        name=_command, help=_help, sort_key=_order,
         # Markdown, each in a line of its own: two spaces break one.
         help_epilogue="Examples:\n\n" + "  \n".join(_examples),
     )  # fmt: skip

@@ -15,7 +15,7 @@ from analytic.input_checks import positive, whole_number
 from ..files.results import load, whole_file
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
-from .job import require_writable
+from .job import Flag, require_writable
 from .motion import (
     Config,
     RampTime,
@@ -25,7 +25,7 @@ from .motion import (
     motion_of,
     slower_than_paper,
 )  # fmt: skip
-from .options import Flag, Whole
+from .options import Whole
 from .output import bar, print_text
 
 

@@ -14,8 +14,9 @@ from analytic import AnyBlade
 from analytic.input_checks import whole_number
 from analytic.warning import warn
 
+from .job import Flag
 from .motion import Config, Omega, configured, omega_of
-from .options import Amplitudes, Flag, Whole
+from .options import Amplitudes, Whole
 from .output import Format, bar, print_columns, print_note
 
 if TYPE_CHECKING:

@@ -15,9 +15,9 @@ from analytic import AnyBlade
 from analytic.exact.linear.modes import Plane
 from analytic.input_checks import positive, rotation_speed, whole_number
 
-from .job import Job
+from .job import Flag, Results
 from .motion import chosen_speeds, configured
-from .options import SECTION, Flag, SectionOptions, Whole
+from .options import SectionOptions, Whole
 from .output import bar, formatted, print_columns
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def campbell(
     points: Whole = 13,
     count: Whole = 3,
     orders: Whole = 6,
-    shape: SectionOptions = SECTION,
+    shape: SectionOptions = SectionOptions(),
     config: Path | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: float | None = None,
@@ -85,12 +85,10 @@ def campbell(
         return
     from ..datasets import dataset_of
 
-    data = dataset_of(diagram)
-    Job(
-        path=out / f"campbell-{shape.name}", inputs=data, force=force, compute=lambda: data,
-        show=lambda *_: _print(diagram),
+    Results(out=out, force=force).job(
+        f"campbell-{shape.name}", dataset_of(diagram), show=lambda *_: _print(diagram),
         draw=lambda figures, _: figures.campbell(diagram, highest=frequency_max),
-    ).run()  # fmt: skip
+    )  # fmt: skip
 
 
 def _families(beam: AnyBlade) -> list[Plane]:

@@ -11,19 +11,10 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
-from .driving import DRIVING, Driving
-from .job import Job
+from .driving import Driving
+from .job import Flag, Results
 from .motion import Config, RampTime, SteadySpeed, configured
-from .options import (
-    DISCRETIZATION,
-    RESULTS,
-    WORKERS,
-    Discretization,
-    Flag,
-    Results,
-    Whole,
-    Workers,
-)
+from .options import Discretization, Whole, Workers
 from .output import formatted, print_columns, print_line, print_note
 
 
@@ -33,12 +24,12 @@ def converge(
     ramp_time: RampTime = None,
     tolerance: float = 1e-4,
     count: Whole = 3,
-    discretization: Discretization = DISCRETIZATION,
-    driving: Driving = DRIVING,
+    discretization: Discretization = Discretization(),
+    driving: Driving = Driving(),
     no_exact: Annotated[Flag, Parameter(name="--no-exact")] = False,
-    workers: Workers = WORKERS,
+    workers: Workers = Workers(),
     config: Config = None,
-    results: Results = RESULTS,
+    results: Results = Results(),
 ) -> None:
     """Print the errors of a mesh and a step, and which to take.
 
@@ -69,20 +60,15 @@ def converge(
     inputs = {**case.describe(), "tolerance": positive("tolerance", tolerance)}
 
     def computed() -> xr.Dataset:
-        with workers.counted("spin-ups") as progress:
-            return comparison.refinement(
-                case, count=count, tolerance=tolerance, exact=not no_exact, jobs=workers.jobs,
-                cache=workers.cache, progress=progress,
-            )  # fmt: skip
+        exact = not no_exact
+        with workers.counted("spin-ups") as how:
+            return comparison.refinement(case, count=count, tolerance=tolerance, exact=exact, **how)
 
     name = f"converge-{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
-    Job(
-        path=results.out / name, inputs=inputs, force=results.force, compute=computed,
-        show=lambda data, _: _print(data),
-    ).run()  # fmt: skip
+    results.job(name, inputs, computed, _print)
 
 
-def _print(data: xr.Dataset) -> None:
+def _print(data: xr.Dataset, _: xr.Dataset) -> None:
     """Print errors, orders and what to take; warn where the mesh asked about misses it."""
     print_columns(
         {

@@ -1,7 +1,9 @@
-"""`rotbeam doctor`: whether this installation works."""
+"""`rotbeam doctor` and `rotbeam schema`: whether the installation works, and what files hold."""
 
 from __future__ import annotations
 
+import json
+import sys
 import time
 
 import analytic
@@ -23,7 +25,13 @@ def doctor() -> None:
     """
     for name, version in versions().items():
         print_text(f"{name:<14}{version}")
-    _draw()
+    from .. import figures
+    from ..figures.judgement import svg
+
+    started = time.perf_counter()
+    modes = analytic.campbell(Beam.reference(), (0.0, 4.0, 8.0), count=1, orders=1)
+    svg(figures.campbell(modes))  # as all figures are drawn
+    print_text(f"{'figure':<14}drawn in {time.perf_counter() - started:.2f} s")
     try:
         require_exudyn()
     except ImportError as error:
@@ -38,12 +46,15 @@ def doctor() -> None:
     print_text(f"{'spin-up':<14}{run.attrs['verdict']} in {time.perf_counter() - started:.2f} s")
 
 
-def _draw() -> None:
-    """Draw as all figures are drawn."""
-    from .. import figures
-    from ..figures.judgement import svg
+def schema() -> None:
+    """Print the JSON schema of beam files.
 
-    started = time.perf_counter()
-    modes = analytic.campbell(Beam.reference(), (0.0, 4.0, 8.0), count=1, orders=1)
-    svg(figures.campbell(modes))
-    print_text(f"{'figure':<14}drawn in {time.perf_counter() - started:.2f} s")
+    By it, an editor completes and checks a file whose first line is `#:schema beam.schema.json`.
+
+    Examples
+    --------
+    $ rotbeam schema
+    """
+    from ..files.beam_tables import schema as of_files
+
+    sys.stdout.write(f"{json.dumps(of_files(), indent=2)}\n")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import MISSING, dataclass, fields, make_dataclass, replace
+from dataclasses import MISSING, dataclass, field, fields, make_dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
@@ -132,9 +132,6 @@ class Dampings:
         return blade
 
 
-LOADS, DAMPINGS = Loads(), Dampings()
-
-
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class Driving:
@@ -146,8 +143,8 @@ class Driving:
         Frequency of the loads given as options [rad/s].
     """
 
-    loads: Loads = LOADS
-    dampings: Dampings = DAMPINGS
+    loads: Loads = field(default_factory=Loads)
+    dampings: Dampings = Dampings()
     load_frequency: float | None = None
 
     def chosen(self, in_file: Sequence[Load]) -> Sequence[Load]:
@@ -168,7 +165,3 @@ class Driving:
         refuse_rest(motion.spin_up.omega)
         beam = self.dampings.on(file.beam)
         return numerics.case(beam, motion, self.chosen(file.loads))
-
-
-DRIVING = Driving()
-"""Nothing given."""

@@ -11,10 +11,9 @@ from analytic import AnyBlade
 
 from .. import paper
 from ..fem.lazily import require_exudyn
-from ..files.results import whole_file
-from .job import require_writable
+from .job import Flag, require_writable, write_text
 from .motion import chosen_speeds, chosen_times, configured, grid_motion
-from .options import Flag, Jobs, Workers
+from .options import Jobs, Workers
 from .output import print_text
 
 
@@ -62,10 +61,9 @@ def explore(
         )
     beam = file.beam
     options = {} if config is None else _scaled(beam)
-    with Workers(cache=cache).counted("exact orbits and spin-ups") as progress:
-        data = explorer_data(beam, cache=cache, jobs=jobs, progress=progress, **options)
-    with whole_file(out) as partial:
-        partial.write_text(explorer_page(data), encoding="utf-8")
+    with Workers(cache=cache, jobs=jobs).counted("exact orbits and spin-ups") as how:
+        data = explorer_data(beam, **how, **options)
+    write_text(explorer_page(data), out)
     print_text(f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
 
 

@@ -1,4 +1,4 @@
-"""Job: the steps that every command which computes a result goes through, in the same order."""
+"""Results: the steps that every command which computes one goes through, in the same order."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import shorten
-from typing import Any, Generic, TypeVar
+from typing import Annotated, Any, TypeVar
+
+from cyclopts import Parameter
 
 from ..files.results import differing_inputs, save, save_tables, whole_file, writable_folder
 from ..lazily import xr
 from .output import print_written
 
 R = TypeVar("R")
-T = TypeVar("T")
+
+Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
+"""A switch, off unless it is given."""
 
 _LONGEST = 60
 """Letters of a value that are shown."""
 
-
-class UnfinishedError(Exception):
-    """End of a computation that leaves a part of its result.
-
-    Its cause is the error, its arguments are the part and the word "computed" or "found".
-    """
+_PARTS = {"run": "computed", "response": "found"}
+"""Attributes by which an error holds a part of the result, and a word for it."""
 
 
 @contextmanager
@@ -37,7 +37,7 @@ def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
         raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
 
 
-def _itself(data: Any) -> Any:
+def _all(data: xr.Dataset) -> xr.Dataset:
     return data
 
 
@@ -48,71 +48,87 @@ def _saved(data: xr.Dataset, path: Path, table: xr.Dataset) -> list[Path]:
     return [whole, *save_tables(table, Path(f"{path}.csv"))]
 
 
+@Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class Job(Generic[R, T]):
-    """A result to compute, save, print and draw.
+class Results:
+    """Options on the folder of the results.
 
     Parameters
     ----------
-    path
-        The files to write, without their endings.
-    inputs
-        Inputs by name, or the result: files with other inputs are not replaced.
+    out
+        Folder for the results.
     force
-        Replace them.
-    compute
-        Computation of the result; it may raise `UnfinishedError` from a `RuntimeError`.
-    dataset
-        The result as a Dataset, to save and to draw; itself, unless given.
-    table
-        The part of the Dataset that its CSV holds; all of it, unless given.
-    show
-        Printing of the result; the Dataset is handed over with it.
-    draw
-        Drawing of the Dataset by `figures`, which is handed over; none, unless given.
-    caption
-        Words about the figure, for a file of text beside it.
+        Replace a result of other inputs that has the same name.
     """
 
-    path: Path
-    inputs: xr.Dataset | Mapping[str, object]
-    force: bool
-    compute: Callable[[], R]
-    dataset: Callable[[R], xr.Dataset] = _itself
-    table: Callable[[xr.Dataset], xr.Dataset] = _itself
-    show: Callable[[R, xr.Dataset], T]
-    draw: Callable[[Any, xr.Dataset], Any] | None = None
-    caption: str = ""
+    out: Annotated[Path, Parameter(alias="-o")] = Path("results")
+    force: Flag = False
 
-    def run(self) -> T:
-        """Check, compute, save, show, draw and list the files; return what `show` does."""
-        writable_folder(self.path.parent)
-        refuse_to_replace(self.inputs, Path(f"{self.path}.nc"), force=self.force)
+    def job(
+        self,
+        name: str,
+        inputs: xr.Dataset | Mapping[str, Any],
+        compute: Callable[[], R] | None = None,
+        show: Callable[[R, xr.Dataset], Any] | None = None,
+        *,
+        table: Callable[[xr.Dataset], xr.Dataset] = _all,
+        draw: Callable[[Any, xr.Dataset], Any] | None = None,
+        caption: str = "",
+    ) -> Any:
+        """Check, compute, save, show, draw and list the files; return what `show` does.
+
+        Parameters
+        ----------
+        name
+            The files to write, without folder and endings.
+        inputs
+            Inputs by name, or a Dataset that is the result: files with other inputs are not
+            replaced. The result has them as attributes.
+        compute
+            Computation of the result. Where it fails with a part of the result, this is kept.
+        show
+            Printing of the result; its Dataset is handed over with it.
+        table
+            The part of the Dataset that its CSV holds; all of it, unless given.
+        draw
+            Drawing of the Dataset by `figures`, which is handed over.
+        caption
+            Words about the figure, for a file of text beside it.
+        """
+        from ..datasets import dataset_of
+
+        named = () if compute is None else inputs
+
+        def described(result: Any) -> xr.Dataset:
+            data = dataset_of(*result) if isinstance(result, tuple) else dataset_of(result)
+            return data.assign_attrs({k: inputs[k] for k in named if k not in data.coords})
+
+        path = self.out / name
+        writable_folder(self.out)
+        refuse_to_replace(inputs, Path(f"{path}.nc"), force=self.force)
         try:
-            result = self.compute()
-        except UnfinishedError as end:
-            raise RuntimeError(self._kept(end)) from end
-        data = self.dataset(result)
-        written = _saved(data, self.path, self.table(data))
+            result: Any = inputs if compute is None else compute()
+        except RuntimeError as error:
+            for attribute, word in _PARTS.items():
+                if (part := getattr(error, attribute, None)) is not None:
+                    data = described(part).assign_attrs(verdict=f"failed: {error}")
+                    kept = _saved(data, Path(f"{path}-failed"), table(data))[0]
+                    where = f"the part that was {word} is in {kept}, marked failed"
+                    raise RuntimeError(f"{error}; {where}") from error
+            raise
+        data = described(result)
+        written = _saved(data, path, table(data))
         with telling_what_is_kept(lambda: f"kept: {', '.join(map(str, written))}"):
-            shown = self.show(result, data)
-            if self.draw is not None:
+            shown = show(result, data) if show else None
+            if draw:
                 from .. import figures
 
-                written += figures.save_figure(self.draw(figures, data), self.path)
-            if self.caption:
-                written.append(Path(f"{self.path}.txt"))
-                with whole_file(written[-1]) as partial:
-                    partial.write_text(f"{self.caption}\n", encoding="utf-8")
+                written += figures.save_figure(draw(figures, data), path)
+            if caption:
+                written.append(Path(f"{path}.txt"))
+                write_text(f"{caption}\n", written[-1])
         print_written(written)
         return shown
-
-    def _kept(self, end: UnfinishedError) -> str:
-        """Save the part of a result, marked failed, and return why it ended and where it is."""
-        error, (found, word) = end.__cause__, end.args
-        part = self.dataset(found).assign_attrs(verdict=f"failed: {error}")
-        kept = _saved(part, Path(f"{self.path}-failed"), self.table(part))[0]
-        return f"{error}; the part that was {word} is in {kept}, marked failed"
 
 
 def refuse_to_replace(
@@ -140,6 +156,12 @@ def require_writable(target: Path, *, force: bool, ending: str = "") -> None:
     writable_folder(target.parent)
     if target.exists() and not force:
         raise FileExistsError(f"{target} is there: choose another name with --out, or --force")
+
+
+def write_text(text: str, target: Path) -> None:
+    """Write a text whole or not at all."""
+    with whole_file(target) as partial:
+        partial.write_text(text, encoding="utf-8")
 
 
 def _typed(value: object) -> str:

@@ -1,24 +1,57 @@
-"""`rotbeam judge`: the judgement of a submission of files, from any code in any language."""
+"""`rotbeam kit`, `rotbeam judge` and `rotbeam verify`: the benchmark, and judgements on codes."""
 
 from __future__ import annotations
 
+import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from json import dumps
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ..files.results import whole_file
 from ..report.document import Record, document
 from ..report.page import report_page
 from ..verification.cases import CASES, VERSION
-from ..verification.judgement import judged
+from ..verification.convergence import Order
+from ..verification.judgement import THRESHOLDS, Judgement, judged
+from ..verification.kit import write_kit
 from ..verification.mistakes import mistakes_in
 from ..verification.mistakes.histories import Mistake
+from ..verification.outcomes import Finding, Outcome
+from ..verification.submission import Run
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
-from .job import require_writable
-from .output import bar, print_note, print_text, print_written
-from .verify import print_judgements
+from .job import require_writable, write_text
+from .motion import Config, configured, motion_of
+from .options import element_of
+from .output import bar, counter, print_columns, print_note, print_text, print_written
+
+if TYPE_CHECKING:
+    from ..verification.verify import Entry
+
+_SHORT = {
+    "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
+    "frequencies": "ω_k", "steady deflection": "tip",
+    "backbone": "shift",
+}  # fmt: skip
+
+
+def kit(directory: Path, /) -> None:
+    """Write the problem, its data and starters in five languages.
+
+    Parameters
+    ----------
+    directory
+        New, or empty.
+
+    Examples
+    --------
+    $ rotbeam kit benchmark
+    """
+    folder = write_kit(directory)
+    count = sum(path.is_file() for path in folder.rglob("*"))
+    print_text(f"{count} files in {folder}; begin with README.md and PROBLEM.pdf")
 
 
 def judge(
@@ -84,16 +117,12 @@ def judge(
         digests=digests(folder, submission), faults=faults,
     )  # fmt: skip
     if report is not None:
-        _write(report_page(record), report)
+        write_text(report_page(record), report)
+        print_written([report])
     if json is not None:
-        _write(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
+        write_text(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
+        print_written([json])
     sys.exit(2 if faults else {True: 0, False: 1, None: 3}[found.passed])
-
-
-def _write(text: str, target: Path) -> None:
-    with whole_file(target) as partial:
-        partial.write_text(text, encoding="utf-8")
-    print_written([target])
 
 
 def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
@@ -103,3 +132,141 @@ def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
         by_name.setdefault(one.name, []).append(one)
     for alike in by_name.values():
         print_note(f"{', '.join(one.case for one in alike)}: a usual mistake? {alike[0]}")
+
+
+def verify(*, element: list[str] | None = None, config: Config = None) -> None:
+    """Judge elements by their limits.
+
+    Frequencies, history, amplitude and nonlinear shift.
+
+    The cases are L, S1, S2, O and S4 of the benchmark; of a beam of --config, its spin-up.
+
+    Parameters
+    ----------
+    element
+        A formulation: cable, exact, ancf3, linear, substructures; in space
+        space_cable, space_exact; or one's own, as module:Class. Repeat it for several; by default
+        those in the plane.
+
+    Examples
+    --------
+    $ rotbeam verify --element cable
+    $ rotbeam verify --element cable --element ancf3
+    """
+    from ..verification.entries import entries_at_hand, formulation_entry
+    from ..verification.verify import verify as verification_of
+
+    own = [formulation_entry(element_of(name)) for name in element or ()]
+    file = configured(config)
+    motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
+    entries = tuple(own) or entries_at_hand()
+    entries = tuple(replace(entry, step=motion.step) for entry in entries) if config else entries
+    found = [
+        verification_of(
+            entry, beam=file.beam if config else None, spin_up=motion.spin_up if config else None,
+            duration=motion.duration,
+        )
+        for entry in _tracked(entries)
+    ]  # fmt: skip
+    of_own = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
+    print_judgements(found, of_own if config else "the paper's beam")
+
+
+def _tracked(entries: tuple[Entry, ...]) -> Iterator[Entry]:
+    """Yield each entry, and count it when the next one is asked for."""
+    with counter("verifying") as progress:
+        for done, entry in enumerate(entries, start=1):
+            yield entry
+            progress(done, len(entries))
+
+
+def print_judgements(found: Sequence[Judgement], about: str) -> None:
+    """Print the limits of codes less the reference, their discretization, and the outcomes."""
+    keys = list(dict.fromkeys(key for one in found for key in one.by_quantity))
+    known = {key: [one.by_quantity[key] for one in found if key in one.by_quantity] for key in keys}
+    asked = {
+        "quantity": [f"{case} {_SHORT[quantity]}" for case, quantity in keys],
+        "at most": [f"{THRESHOLDS[quantity]:g}" for _, quantity in keys],
+        "floor": [_largest(one.runs.noise[-1] for one in known[key] if one.runs) for key in keys],
+        "ref ±": [_largest(one.bound for one in known[key]) for key in keys],
+    }
+
+    def of_each(cell: Callable[[Finding], str]) -> dict[str, list[str]]:
+        return {
+            one.declaration.code: [
+                cell(one.by_quantity[key]) if key in one.by_quantity else "-" for key in keys
+            ]
+            for one in found
+        }
+
+    print_columns(asked | of_each(_limit), title=f"Limits of the codes less the reference; {about}")
+    print_note(
+        "! fails, ? is undecided; floor: resolution of the measurement; ref ±: uncertainty of the "
+        "reference, in the shift also that of the code's own ω_n"
+    )
+    bars = {"quantity": asked["quantity"]} | of_each(_discretization)
+    print_columns(
+        bars, title="Discretization error: finest run less its own limit, ± uncertainty of that"
+    )
+    print_columns(
+        {
+            "code": [one.declaration.code for one in found],
+            "theory": [one.declaration.theory.name for one in found],
+            "mesh": [_finest(one, lambda run: str(run.elements)) for one in found],
+            "h": [_finest(one, lambda run: run.step_in_words) for one in found],
+            "order l": [_order(one, "mesh") for one in found],
+            "order h": [_order(one, "step") for one in found],
+            "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],
+            "outcome": [one.outcome for one in found],
+        },
+        title="Orders of q(t), observed of declared, and the finest run of the first history",
+    )
+    for one in found:
+        for sentence in _sentences(one):
+            print_note(f"{one.declaration.code}: {sentence}")
+
+
+def _limit(found: Finding) -> str:
+    """Return the model difference, marked where it decides against the code or decides nothing."""
+    if found.outcome is Outcome.NOT_SUBMITTED:
+        return "-"
+    if not math.isfinite(found.model_difference):
+        return "none!" if found.outcome is Outcome.DIFFERS else "none?"
+    mark = {True: "", False: "!", None: "?"}[found.outcome.passed]
+    return f"{found.model_difference:+.0e}{mark}"
+
+
+def _discretization(found: Finding) -> str:
+    if found.runs is None or not math.isfinite(found.runs.limit):
+        return "-"
+    return f"{found.runs.errors[-1]:+.0e} ±{found.runs.bar:.0e}"
+
+
+def _largest(values: Iterable[float]) -> str:
+    finite = [value for value in values if math.isfinite(value)]
+    return f"{max(finite):.0e}" if finite else "-"
+
+
+def _finest(one: Judgement, cell: Callable[[Run], str]) -> str:
+    """Return what there is to say of the finest run of the first history."""
+    return cell(next(iter(one.histories.values())).finest) if one.histories else "-"
+
+
+def _order(one: Judgement, name: str) -> str:
+    """Return the observed order of the declared one, marked where it is low."""
+    order: Order | None = next((of[name] for of in one.orders.values() if name in of), None)
+    if order is None or math.isnan(order.value):
+        return "-"
+    return f"{order}{'!' if order.low else ''}"
+
+
+def _sentences(found: Judgement) -> list[str]:
+    """Return what differs, what would decide, and runs left out; each sentence once."""
+    said = [
+        f"{finding.said}: {finding.note}" if finding.note else f"{case} {quantity} {finding.said}"
+        for (case, quantity), finding in found.by_quantity.items()
+        if finding.outcome is not Outcome.REFERENCE
+    ]
+    said += [f"{case}: {one}" for case, of in found.remarks.items() for one in of]
+    remarks = [run.remark for one in found.histories.values() for run in one.runs if run.remark]
+    return list(dict.fromkeys([*said, *remarks]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from importlib import import_module
@@ -18,7 +18,7 @@ from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
 from ..fem.lazily import Frame
-from .job import telling_what_is_kept
+from .job import Flag, telling_what_is_kept
 from .motion import ChosenMotion
 from .output import counter
 
@@ -41,9 +41,6 @@ Whole = Annotated[int, Parameter(converter=whole)]
 
 Jobs = Annotated[int | None, Parameter(converter=whole)]
 """A number of processes, or as many as there are cores."""
-
-Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
-"""A switch, off unless it is given."""
 
 Amplitudes = Annotated[
     list[float],
@@ -135,23 +132,6 @@ class Discretization:
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class Results:
-    """Options on the folder of the results.
-
-    Parameters
-    ----------
-    out
-        Folder for the results.
-    force
-        Replace a result of other inputs that has the same name.
-    """
-
-    out: Annotated[Path, Parameter(alias="-o")] = Path("results")
-    force: Flag = False
-
-
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
 class Workers:
     """Options on the workers.
 
@@ -167,11 +147,11 @@ class Workers:
     cache: Path | None = Path("results/cache")
 
     @contextmanager
-    def counted(self, title: str) -> Iterator[Callable[[int, int], None]]:
-        """Give what counts the pieces done; Ctrl-C says where finished spin-ups are."""
+    def counted(self, title: str) -> Iterator[dict[str, Any]]:
+        """Give the options of what counts its pieces; Ctrl-C says where finished spin-ups are."""
         kept = f"finished spin-ups are kept in the cache {self.cache}" if self.cache else ""
         with telling_what_is_kept(lambda: kept), counter(title) as progress:
-            yield progress
+            yield {"jobs": self.jobs, "cache": self.cache, "progress": progress}
 
 
 def _shapes() -> dict[str, Any]:
@@ -224,8 +204,3 @@ class SectionOptions:
                 "--section tube, or [blade.section.out_of_plane] in --config"
             )
         return blade
-
-
-DISCRETIZATION, RESULTS = Discretization(), Results()
-SECTION, WORKERS = SectionOptions(), Workers()
-"""Nothing given."""

@@ -11,9 +11,9 @@ from analytic.input_checks import positive, whole_number
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
-from .job import Job
+from .job import Results
 from .motion import Config, SteadySpeed, chosen_times, configured, motion_of, refuse_rest
-from .options import RESULTS, Discretization, Results, Whole
+from .options import Discretization, Whole
 from .output import counter, formatted, print_columns, print_note
 
 
@@ -26,7 +26,7 @@ def ramp(
     element: str | None = None,
     elements: Whole | None = None,
     config: Config = None,
-    results: Results = RESULTS,
+    results: Results = Results(),
 ) -> None:
     """Print the residual vibration over the ramp time, and minima.
 
@@ -80,15 +80,11 @@ def ramp(
                 progress=progress,
             )  # fmt: skip
 
-    Job(
-        path=results.out / f"ramp-omega-{omega:g}-longest-{longest:g}",
-        inputs=inputs,
-        force=results.force,
-        compute=computed,
-        dataset=lambda data: data.assign_attrs(inputs),
-        show=lambda data, _: _print(beam, omega, longest, data),
+    results.job(
+        f"ramp-omega-{omega:g}-longest-{longest:g}", inputs, computed,
+        lambda data, _: _print(beam, omega, longest, data),
         draw=lambda figures, data: figures.residual(data),
-    ).run()
+    )  # fmt: skip
 
 
 def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> None:

@@ -9,10 +9,11 @@ import numpy as np
 import analytic
 from analytic.input_checks import positive, whole_number
 
+from ..lazily import xr
 from ..runs.attributes import beam_attributes
-from .job import Job
+from .job import Results
 from .motion import Config, RampTime, SteadySpeed, configured, motion_of
-from .options import RESULTS, Results, Whole
+from .options import Whole
 from .output import bar, print_line
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def reference(
     samples: Whole = 1501,
     tolerance: float = 1e-8,
     config: Config = None,
-    results: Results = RESULTS,
+    results: Results = Results(),
 ) -> None:
     """Write the exact spin-up as netCDF and CSV.
 
@@ -48,8 +49,6 @@ def reference(
     $ rotbeam reference
     $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
     """
-    from ..datasets import dataset_of
-
     file = configured(config)
     if duration is None:
         duration = file.numerics.get("duration")
@@ -67,17 +66,11 @@ def reference(
         with bar("integrating"):
             return analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
 
-    Job(
-        path=results.out / f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}",
-        inputs=inputs,
-        force=results.force,
-        compute=computed,
-        dataset=lambda found: dataset_of(found).assign_attrs(tolerance=tolerance),
-        show=lambda found, _: _print(found),
-    ).run()
+    name = f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
+    results.job(name, inputs, computed, _print)
 
 
-def _print(response: SpinUpResponse) -> None:
+def _print(response: SpinUpResponse, _: xr.Dataset) -> None:
     spin_up = response.spin_up
     farthest = int(np.abs(response.q).argmax())
     print_line("spin-up", f"ω = {spin_up.omega:g} rad/s in T = {spin_up.ramp_time:g} s")

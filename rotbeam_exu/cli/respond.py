@@ -10,13 +10,12 @@ from cyclopts import Parameter
 import analytic
 from analytic.arrays import FloatArray
 from analytic.input_checks import positive, whole_number
-from analytic.loads import Load
 
 from ..lazily import xr
-from .driving import DAMPINGS, LOADS, Dampings, Loads, option_of
-from .job import Job, UnfinishedError
+from .driving import Dampings, Loads, option_of
+from .job import Flag, Results
 from .motion import Config, configured, omega_of
-from .options import RESULTS, Flag, NoFigure, Results, Whole
+from .options import NoFigure, Whole
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -28,14 +27,14 @@ def respond(
     first: Annotated[float, Parameter(name="--from")],
     last: Annotated[float, Parameter(name="--to")],
     omega: float | None = None,
-    loads: Loads = LOADS,
-    dampings: Dampings = DAMPINGS,
+    loads: Loads = Loads(),
+    dampings: Dampings = Dampings(),
     points: Whole = 41,
     inextensible: Flag = False,
     functions: Whole = 10,
     config: Config = None,
     no_figure: NoFigure = False,
-    results: Results = RESULTS,
+    results: Results = Results(),
 ) -> None:
     """Follow a damped, driven blade's response through its folds.
 
@@ -63,7 +62,7 @@ def respond(
     $ rotbeam respond --omega 6 --ripple 0.003 --damping-ratio 0.001 --from 3.6 --to 4
     $ rotbeam respond --gravity --external-damping 0.3 --from 4 --to 6 --points 5
     """
-    from ..datasets import dataset_of, response_inputs
+    from ..datasets import response_inputs
 
     load = loads.one()
     file = configured(config)
@@ -85,26 +84,18 @@ def respond(
     def computed() -> ForcedResponse:
         theory = analytic.Theory(extension=not inextensible)
         how: Any = {"theory": theory, "functions": functions}
-        try:
-            with bar("following the curve"):
-                if omega is None:
-                    return analytic.forced_response(beam, frequencies, load, **how)
-                return analytic.forced_response(beam, omega, load, frequencies, **how)
-        except analytic.ResponseNotReachedError as error:
-            if error.response is None:
-                raise
-            raise UnfinishedError(error.response, "found") from error
+        with bar("following the curve"):
+            if omega is None:
+                return analytic.forced_response(beam, frequencies, load, **how)
+            return analytic.forced_response(beam, omega, load, frequencies, **how)
 
-    Job(
-        path=results.out / f"{_name(load, omega)}-from-{first:g}-to-{last:g}",
-        inputs=inputs,
-        force=results.force,
-        compute=computed,
-        dataset=lambda found: dataset_of(found).assign_attrs(inputs),
+    turning = "" if omega is None else f"omega-{omega:g}-"
+    loaded = f"{option_of(type(load))}-{load.size:g}"
+    results.job(
+        f"response-{turning}{loaded}-from-{first:g}-to-{last:g}", inputs, computed, _print,
         table=lambda data: data.drop_dims(["harmonic", "orbit"], errors="ignore"),
-        show=lambda found, data: _print(data, str(found)),
         draw=None if no_figure else lambda figures, data: figures.forced_response(data),
-    ).run()
+    )  # fmt: skip
 
 
 def _frequencies(first: float, last: float, points: int) -> FloatArray:
@@ -113,12 +104,7 @@ def _frequencies(first: float, last: float, points: int) -> FloatArray:
     return np.linspace(first, last, whole_number("points", points, least=2))
 
 
-def _name(load: Load, omega: float | None) -> str:
-    turning = "" if omega is None else f"omega-{omega:g}-"
-    return f"response-{turning}{option_of(type(load))}-{load.size:g}"
-
-
-def _print(data: xr.Dataset, title: str) -> None:
+def _print(found: ForcedResponse, data: xr.Dataset) -> None:
     marks = data["mark"].to_numpy()
     (shown,) = np.nonzero(marks)
     frequency = data["frequency"].attrs["long_name"].split()[-1]
@@ -135,7 +121,7 @@ def _print(data: xr.Dataset, title: str) -> None:
                 for i in shown
             ],
         },
-        title=title,
+        title=str(found),
     )
     if "planar" in data.attrs:
         print_text(f"{data.attrs['planar']}.")

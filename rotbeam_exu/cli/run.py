@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 from cyclopts import Parameter
 
-from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..runs.check import SimulationError, energy_drift
-from .driving import DRIVING, Driving
-from .job import Job, UnfinishedError
+from ..runs.check import energy_drift
+from .driving import Driving
+from .job import Flag, Results
 from .motion import Config, RampTime, SteadySpeed, configured
-from .options import DISCRETIZATION, RESULTS, Discretization, Flag, NoFigure, Results, Whole
+from .options import Discretization, NoFigure, Whole
 from .output import bar, print_line
 
 if TYPE_CHECKING:
@@ -30,13 +29,13 @@ def run(
     *,
     omega: SteadySpeed = None,
     ramp_time: RampTime = None,
-    discretization: Discretization = DISCRETIZATION,
-    driving: Driving = DRIVING,
+    discretization: Discretization = Discretization(),
+    driving: Driving = Driving(),
     stations: Whole | None = None,
     no_exact: Annotated[Flag, Parameter(name="--no-exact")] = False,
     config: Config = None,
     no_figure: NoFigure = False,
-    results: Results = RESULTS,
+    results: Results = Results(),
 ) -> None:
     """Spin a beam up in Exudyn and measure the remaining oscillation.
 
@@ -67,10 +66,16 @@ def run(
     chosen = "" if given else ", the benchmark's"
     count = 0 if stations is None else whole_number("stations", stations, least=2)
     kept = np.linspace(0.0, case.beam.length, count)
-    path = results.out / f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
+    name = f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
+
+    def computed() -> xr.Dataset:
+        from ..fem.simulation import run_case
+
+        with bar("spinning up") as drawn:
+            return run_case(case, stations=kept, progress=lambda done: drawn(done, 1.0))
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
-        steady = _measured(data, path)
+        steady = _measured(data, results.out / name)
         with bar("exact frequencies"):
             found = assess(case, steady, exact=not no_exact)
         for title, text in (
@@ -80,13 +85,11 @@ def run(
             print_line(title, text)
         return found
 
-    found = Job(
-        path=path, inputs=case.describe(), force=results.force,
-        compute=lambda: _computed(case, kept),
+    found = results.job(
+        name, case.describe(), computed, shown,
         table=lambda data: data.drop_dims("station", errors="ignore"),
-        show=shown,
         draw=None if no_figure else lambda figures, data: figures.spin_up(data),
-    ).run()  # fmt: skip
+    )  # fmt: skip
     for sentence in found.warnings(case.elements, case.step):
         warn(sentence)
 
@@ -99,18 +102,6 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
         return steady_oscillation(data)
     except ValueError as error:
         raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
-
-
-def _computed(case: RunCase, stations: FloatArray) -> xr.Dataset:
-    from ..fem.simulation import run_case
-
-    try:
-        with bar("spinning up") as drawn:
-            return run_case(case, stations=stations, progress=lambda done: drawn(done, 1.0))
-    except SimulationError as error:
-        if error.run is None:
-            raise
-        raise UnfinishedError(error.run, "computed") from error
 
 
 def _inputs(case: RunCase, element: str, chosen: str) -> list[tuple[str, str]]:

@@ -12,10 +12,11 @@ from analytic.exact.plane.growth import least_growth
 from analytic.input_checks import not_negative, whole_number
 
 from ..files.results import parts
+from ..lazily import xr
 from ..runs.attributes import beam_attributes
-from .job import Job
+from .job import Results
 from .motion import Config, Omega, configured, omega_of
-from .options import RESULTS, SECTION, Amplitudes, Results, SectionOptions, Whole
+from .options import Amplitudes, SectionOptions, Whole
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -28,12 +29,12 @@ _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 def stability(
     *,
     omega: Omega = None,
-    shape: SectionOptions = SECTION,
+    shape: SectionOptions = SectionOptions(),
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
     damping_ratio: float = 0.0,
     config: Config = None,
-    results: Results = RESULTS,
+    results: Results = Results(),
 ) -> None:
     """Find whether motion in the plane of rotation stays in it.
 
@@ -57,8 +58,6 @@ def stability(
     $ rotbeam stability --omega 6 --section tube
     $ rotbeam stability --omega 2 --section rectangle --damping-ratio 0.005
     """
-    from ..datasets import dataset_of
-
     whole_number("mode", mode)
     not_negative("damping-ratio", damping_ratio)
     file = configured(config)
@@ -70,23 +69,20 @@ def stability(
     growth = least_growth(blade, damping_ratio)
     inputs |= {"damping_ratio": damping_ratio, "growth": growth}
 
-    def computed() -> tuple[PlanarStability, StabilityLimit]:
+    def computed() -> tuple[PlanarStability, StabilityLimit, xr.Dataset]:
         with bar("growth out of the plane"):
             found = analytic.planar_stability(blade, omega, amplitudes, mode, damping=damping_ratio)
-            return found, analytic.stability_limit(
+            limit = analytic.stability_limit(
                 blade, omega, mode, damping=damping_ratio, growth=growth, largest=amplitudes[-1]
             )
+        return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 
-    Job(
-        path=results.out / f"stability-{shape.name}-omega-{omega:g}-mode-{mode}",
-        inputs=inputs,
-        force=results.force,
-        compute=computed,
-        dataset=lambda pair: dataset_of(*pair).assign_attrs(inputs, sentence=str(pair[1])),
+    results.job(
+        f"stability-{shape.name}-omega-{omega:g}-mode-{mode}", inputs, computed,
+        lambda found, _: _print(*found[:2]),
         table=lambda data: parts(data)["growth_rate"],
-        show=lambda pair, _: _print(*pair),
         draw=lambda figures, data: figures.planar_stability(data),
-    ).run()
+    )  # fmt: skip
 
 
 def _print(found: PlanarStability, limit: StabilityLimit) -> None:

@@ -10,10 +10,10 @@ from cyclopts import Parameter
 from .. import paper
 from ..files.beam_file import RunFile
 from ..lazily import xr
-from .driving import DRIVING, Driving
-from .job import Job
+from .driving import Driving
+from .job import Results
 from .motion import chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
-from .options import DISCRETIZATION, RESULTS, WORKERS, Discretization, Results, Workers
+from .options import Discretization, Workers
 from .output import formatted, print_columns, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
@@ -23,11 +23,11 @@ def sweep(
     *,
     omega: Values = None,
     ramp_time: Values = None,
-    discretization: Discretization = DISCRETIZATION,
-    driving: Driving = DRIVING,
-    workers: Workers = WORKERS,
+    discretization: Discretization = Discretization(),
+    driving: Driving = Driving(),
+    workers: Workers = Workers(),
     config: Path | None = None,
-    results: Results = RESULTS,
+    results: Results = Results(),
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times.
 
@@ -65,25 +65,19 @@ def sweep(
         if config is not None:
             speeds, times = (", ".join(f"{x:g}" for x in of) for of in (omegas, ramp_times))
             print_text(f"ω = {speeds} rad/s, T = {times} s (by default the benchmark's ω/ω_0)")
-        with workers.counted("spin-ups") as progress:
+        with workers.counted("spin-ups") as how:
             return run_sweep(
                 beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
                 elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
-                loads=one.loads,
-                jobs=workers.jobs, cache=workers.cache, progress=progress, on_error="record",
+                loads=one.loads, on_error="record", **how,
             )  # fmt: skip
 
-    path = results.out / f"sweep-{numerics.name}"
-    failed = Job(
-        path=path,
-        inputs={**one.describe(), "omega": omegas, "ramp_time": ramp_times},
-        force=results.force,
-        compute=computed,
-        show=_print,
-    ).run()
+    name, grid = f"sweep-{numerics.name}", {"omega": omegas, "ramp_time": ramp_times}
+    failed = results.job(name, {**one.describe(), **grid}, computed, _print)
     if failed:
         raise RuntimeError(
-            f"{failed} of {count} spin-ups failed; why is above, and as `failure` in {path}.nc"
+            f"{failed} of {count} spin-ups failed; why is above, and as `failure` in "
+            f"{results.out / name}.nc"
         )
 
 

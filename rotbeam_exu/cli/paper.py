@@ -1,0 +1,172 @@
+"""`rotbeam figure`, `rotbeam table` and `rotbeam compare`: the paper beside what is right."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import analytic
+from analytic import AnyBlade, Beam
+from analytic.reduced.tables import PaperTable
+
+from .. import paper
+from ..fem.lazily import require_exudyn
+from ..files.results import writable_folder
+from ..lazily import xr
+from ..runs.attributes import beam_attributes
+from .job import Results, refuse_to_replace
+from .motion import ChosenMotion, chosen_speeds, chosen_times, configured, grid_motion, motion_of
+from .options import Workers, numbered
+from .output import formatted, print_columns, print_note
+
+_SWEPT = (5, 14)  # figures whose data come from sweeps
+
+
+def figure(
+    number: str,
+    /,
+    *,
+    workers: Workers = Workers(),
+    results: Results = Results(),
+    style: str = "house",
+) -> None:
+    """Make a figure of the paper: data, pictures and caption.
+
+    Figures show the paper's beam. For your own beam take run, respond, compare or explore.
+
+    Parameters
+    ----------
+    number
+        3, 4, 5, 8 to 15, or all. Figures 1, 2, 6 and 7 are drawings.
+    style
+        house: PNG and PDF; journal: a journal's column width, PDF and SVG; grey: that in greys.
+
+    Examples
+    --------
+    $ rotbeam figure 9
+    $ rotbeam figure 14 --jobs 2 -o paper
+    """
+    from .. import comparison, figures
+
+    with figures.style(style):
+        for n in numbered("figure", number, sorted(figures.PAPER_FIGURES)):
+            name = f"figure_{n}"
+            writable_folder(results.out)
+            with workers.counted(f"figure {n}") as how:
+                data = getattr(comparison, name)(**how if n in _SWEPT else {})
+            results.job(
+                name, data, draw=lambda _, data, name=name: getattr(figures, name)(data),
+                caption=f"Figure {n}. {figures.caption(n, data)}",
+            )  # fmt: skip
+
+
+def table(number: str, /) -> None:
+    """Print a table of the paper, as printed and as derived.
+
+    Differences and errata are marked; the marks are explained below the table.
+
+    Parameters
+    ----------
+    number
+        1 to 5, or all.
+
+    Examples
+    --------
+    $ rotbeam table 3
+    $ rotbeam table all
+    """
+    for one in numbered("table", number, range(1, 6)):
+        _print_table(analytic.paper_table(one))
+
+
+def _print_table(result: PaperTable) -> None:
+    names = ("quantity", "printed", "derived", "difference", "note")
+    columns = {name: [getattr(row, name) for row in result.rows] for name in names}
+    notes = [note for note in dict.fromkeys(columns["note"]) if note]
+    marks = {note: chr(ord("a") + i) for i, note in enumerate(notes)}
+    columns["note"] = [marks.get(note, "") for note in columns["note"]]
+    print_columns(columns, title=f"Table {result.number}: {result.title}")
+    for note, mark in marks.items():
+        print_note(f"{mark}: {note}")
+
+
+def compare(
+    *,
+    amplitude: float = 0.1,
+    config: Path | None = None,
+    workers: Workers = Workers(),
+    results: Results = Results(),
+) -> None:
+    """Print all models' errors, and write Figures 14 and 15's data.
+
+    Speeds, ramps and step of another uniform beam follow its ω_0.
+
+    Parameters
+    ----------
+    amplitude
+        Amplitude over the length at which the models' budget is printed.
+    config
+        TOML file with the beam; without it, the paper's beam. Its [motion] is that of Figure 15,
+        its [numerics] is not used.
+
+    Examples
+    --------
+    $ rotbeam compare --jobs 2
+    $ rotbeam compare --config beam.toml --amplitude 0.2 -o mine
+    """
+    from .. import comparison
+
+    require_exudyn()
+    file = configured(config)
+    beam = _uniform(file.beam)
+    mine = {} if config is None else beam_attributes(beam)
+    omegas = chosen_speeds(beam, *paper.SPEEDS)
+    ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
+    models = comparison.model_budget(beam, omegas=omegas, amplitudes=(amplitude,))
+    target = results.out / "budget_models.nc"
+    refuse_to_replace(models.assign_attrs(mine), target, force=results.force)
+    motion, main = _even(grid_motion(beam, omegas, ramp_times)), motion_of(file)
+    with workers.counted("spin-ups") as how:
+        data = {
+            "figure_14": comparison.figure_14(
+                beam, omegas=omegas, ramp_times=ramp_times, duration=motion.duration,
+                step=motion.step, **how,
+            ),
+            "figure_15": comparison.figure_15(
+                beam, omega=main.spin_up.omega, ramp_time=main.spin_up.ramp_time,
+                duration=main.duration, step=main.step,
+            ),
+            "budget_models": models,
+        }  # fmt: skip
+    for name, found in data.items():
+        results.job(name, found.assign_attrs(mine))
+    _print_models(models, amplitude)
+
+
+def _uniform(beam: AnyBlade) -> Beam:
+    """Return the uniform beam; refuse a blade, which the paper's models do not describe."""
+    known = beam.uniform
+    if known is None:
+        raise ValueError(
+            "the paper's models, which compare needs, are for the uniform beam of [beam] only: for "
+            "a [blade] take rotbeam backbone --variant FrM --exact"
+        )
+    return known
+
+
+def _even(motion: ChosenMotion) -> ChosenMotion:
+    """Return the motion with an even number of steps, for twice the step has to fit as well."""
+    steps = round(motion.duration / motion.step)
+    return replace(motion, step=motion.duration / (steps + 1)) if steps % 2 else motion
+
+
+def _print_models(models: xr.Dataset, amplitude: float) -> None:
+    for omega in models["omega"].to_numpy():
+        here = models.sel(omega=omega, a=amplitude)
+        errors = here["error"].to_pandas().T
+        errors.loc["total"] = here["total"].to_pandas()
+        columns = {model: formatted(errors[model], "+.1e") for model in errors}
+        print_columns(
+            {"source": list(errors.index), **columns},
+            title=f"(ω_NL - exact)/ω_n at ω = {omega:g} rad/s, a = {amplitude:g}",
+        )
