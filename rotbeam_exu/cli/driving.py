@@ -31,11 +31,11 @@ def _has_default(kind: Any) -> bool:
 
 
 _KINDS = {
-    f"--{option_of(kind)}": kind
+    option_of(kind).replace("-", "_"): kind
     for kind in sorted(kinds_of(Load).values(), key=_has_default)
     if kind.varied
 }
-"""Loads that have a response, by their options; loads that need no size come last."""
+"""Loads that have a response, by their fields; loads that need no size come last."""
 
 
 class _Given:
@@ -43,39 +43,32 @@ class _Given:
 
     def one(self) -> Load:
         """Return the load, where one is given."""
-        given = self._sizes()
+        given = self.all(None)
         if len(given) != 1:
-            *others, last = _KINDS
-            raise ValueError(
-                f"give one load, {', '.join(others)} or {last}, got "
-                + (" and ".join(given) or "none")
-            )
-        return self.all(None)[0]
+            *others, last = (f"--{option_of(kind)}" for kind in _KINDS.values())
+            got = " and ".join(f"--{option_of(type(one))}" for one in given) or "none"
+            raise ValueError(f"give one load, {', '.join(others)} or {last}, got {got}")
+        return given[0]
 
     def all(self, frequency: float | None) -> list[Load]:
         """Return the loads, harmonic ones at a frequency [rad/s]."""
         loads = []
-        for name, size in self._sizes().items():
+        for name, size in vars(self).items():
+            if size is None or size is False:
+                continue
             kind: Any = _KINDS[name]
             load: Any = kind() if size is True else kind(**{fields(kind)[0].name: size})
             if load.size == 0.0:
-                raise ValueError(f"{name} 0 is no load: give its amplitude")
+                raise ValueError(f"--{option_of(kind)} 0 is no load: give its amplitude")
             harmonic = load.varied == "frequency" and frequency is not None
             loads.append(replace(load, frequency=frequency) if harmonic else load)
         return loads
 
-    def _sizes(self) -> dict[str, Any]:
-        asked = {f"--{name.replace('_', '-')}": size for name, size in vars(self).items()}
-        return {
-            name: size for name, size in asked.items() if size is not None and size is not False
-        }
 
-
-def _size(kind: Any) -> tuple[str, Any, bool | None]:
+def _field(name: str, kind: Any) -> tuple[str, Any, bool | None]:
     """Return the option of a kind of load, whose size may be left out if it has a default."""
     about, size = (kind.__doc__ or "").partition("\n")[0].removesuffix("."), fields(kind)[0]
     about += f"; {kind.symbol} [{kind.unit}]"
-    name = option_of(kind).replace("-", "_")
     if not _has_default(kind):
         return name, Annotated[float | None, Parameter(help=f"{about}.")], None
     option = Parameter(
@@ -88,7 +81,7 @@ def _size(kind: Any) -> tuple[str, Any, bool | None]:
 # An option for each kind of load that is known.
 Loads: Any = Parameter(name="*")(
     make_dataclass(
-        "Loads", map(_size, _KINDS.values()),
+        "Loads", [_field(*one) for one in _KINDS.items()],
         bases=(_Given,), namespace={"__module__": __name__}, frozen=True, kw_only=True,
     )
 )  # fmt: skip

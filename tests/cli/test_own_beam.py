@@ -5,7 +5,7 @@ import pytest
 
 from analytic import Beam
 from rotbeam_exu import comparison, explorer, paper
-from rotbeam_exu.cli import compare as compare_job
+from rotbeam_exu.cli import paper as compare_job
 from rotbeam_exu.cli.motion import ChosenMotion, grid_motion
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import BLADE_TOML, REED_TOML
