@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import xarray as xr
 
@@ -12,24 +11,15 @@ from analytic import Beam
 
 from ..paper import MODEL_NAMES, MODELS, RAMP_TIMES, SPEEDS
 from ..runs.attributes import beam_of
-from .style import quantity, takes_own, typeset
+from .style import quantity, typeset
 
 T = TypeVar("T")
 
 EXACT = "black: the geometrically exact beam, by harmonic balance"
 
 
-@dataclass(frozen=True, kw_only=True)
-class PaperFigure:
-    """Words on a figure of the paper that has data.
-
-    Attributes
-    ----------
-    shows : callable
-        Returns, from the data, the sentence on models, speeds and mesh drawn.
-    claim : str
-        Claim of the paper, and our answer.
-    """
+class PaperFigure(NamedTuple):
+    """Words on a figure of the paper: of its data what is drawn; the paper's claim, our answer."""
 
     shows: Callable[[xr.Dataset], str]
     claim: str
@@ -46,8 +36,8 @@ def paper_figure(
 
     def known(draw: Callable[..., T]) -> Callable[..., T]:
         number = int(draw.__name__.removeprefix("figure_"))
-        PAPER_FIGURES[number] = PaperFigure(shows=shows, claim=claim)
-        return takes_own(draw)
+        PAPER_FIGURES[number] = PaperFigure(shows, claim)
+        return draw
 
     return known
 

@@ -15,14 +15,13 @@ from analytic.exact.linear.campbell import Campbell
 from analytic.plotting import FOLD, UNSTABLE, backbone_drawn, draw_response
 
 from ..paper import BLUE, ORANGE, RED
-from .style import colormap, column, house_axes, ink, label, quantity, ramp, takes_own
+from .style import colormap, column, house_axes, ink, label, quantity, ramp
 
 _GROWTH = {"period doubling": ("s", BLUE), "divergence": ("^", RED), "sum resonance": ("o", ORANGE)}
 _GROWTH_LEVELS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # [1/s]
 _DAMPINGS = {"bending": ("$η_b$", "s"), "axial": ("$η_a$", "s"), "external": ("$d$", "kg/(m s)")}
 
 
-@takes_own
 def campbell(diagram: Campbell, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
     """Draw lag, flap and torsional frequencies over the speed, and the lines kω.
 
@@ -32,7 +31,6 @@ def campbell(diagram: Campbell, ax: Axes | None = None, *, highest: float | None
         return diagram.plot(axes, highest=highest)
 
 
-@takes_own
 def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = None) -> Axes:
     """Draw response curves as `ForcedResponse.plot` does, and the backbone thin.
 
@@ -75,7 +73,6 @@ def _title(curve: xr.Dataset) -> str:
     return ", ".join(parts)
 
 
-@takes_own
 def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the growth rate out of the plane over the amplitude, at one speed."""
     a, rate = data["a"].to_numpy(), data["growth_rate"].to_numpy()
@@ -102,7 +99,6 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
-@takes_own
 def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the amplitude left over the ramp time: closed form, exact, by elements, quiet ramps."""
     times, blue, red = data["ramp_time"], ink(BLUE), ink(RED)
@@ -137,7 +133,6 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
-@takes_own
 def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw λ_ω, its zero line, and the lines on which ω_2/ω_n is 3, 4 and 5."""
     x, y = data["hub_ratio"].to_numpy(), data["w_bar"].to_numpy()
@@ -161,7 +156,6 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return axes
 
 
-@takes_own
 def growth_out_of_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw the map of growth rates over speed and amplitude; white stays in the plane.
 

@@ -23,7 +23,6 @@ from .style import (
     quantity,
     ramp,
     shade_ramp,
-    takes_own,
 )
 
 _DASHES = ((0, (1, 1)), (0, (5, 1, 1, 1)), "--")
@@ -246,7 +245,6 @@ def _orbits(ax: Axes, data: xr.Dataset) -> None:
         ax.plot(q[-1], rate[-1], marker="o", ms=4.0, color=line["color"], zorder=7)
 
 
-@takes_own
 def spin_up(run: xr.Dataset, ax: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:
     """Draw q(t), the ramp shaded, and the steady orbit (q, q_dot) of a run by `simulate`.
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import functools
 import math
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -77,8 +76,6 @@ _STYLES = {
 }
 _GAP = 6.0  # between two columns [mm]
 _ACTIVE: ContextVar[_Style] = ContextVar("style", default=_STYLES["house"])
-_OWN: ContextVar[Sequence[Mapping[str, Any]]] = ContextVar("own", default=())
-_OWN_POINTS: Any = {"ls": "none", "ms": 4.0, "mfc": "white", "mew": 1.0, "zorder": 9}
 
 
 @contextmanager
@@ -161,42 +158,13 @@ def new_figure(width: float, height: float, **layout: Any) -> tuple[Figure, Any]
 def house_axes(ax: _Given | None, width: float, height: float, **layout: Any) -> Iterator[_Given]:
     """Draw in the house's style: on `ax`, or on the axes of a new figure [in].
 
-    The reader's own data is drawn as well, and axes have units of a fitting size.
+    The axes have units of a fitting size.
     """
     given: Any = new_figure(width, height, **layout)[1] if ax is None else ax
-    every = np.ravel(np.asarray(given, dtype=object)).tolist()
     with mpl.rc_context(_ACTIVE.get().settings):
-        own = [
-            one.plot(x, y, mec=ink(RED), label=name, **{**_OWN_POINTS, "marker": marker})[0]
-            for one, data in zip(every, _OWN.get(), strict=False)
-            for marker, (name, (x, y)) in zip("oDs^v", data.items(), strict=False)
-        ]
         yield given
-        for one in every:
+        for one in np.ravel(np.asarray(given, dtype=object)).tolist():
             fitting_units(one)
-        legends = [one.get_legend() for one in every] + every[0].figure.legends if own else []
-        named = {text.get_text() for legend in legends if legend for text in legend.texts}
-        for line in own:
-            if line.get_label() not in named:
-                line.axes.legend(handles=[one for one in own if one.axes is line.axes])
-
-
-def takes_own(draw: Callable[..., _Given]) -> Callable[..., _Given]:
-    """Decorate a drawing: its argument `own` has data of the reader's, to compare.
-
-    A mapping of names to pairs (x, y) in the units of the data, for the first axes; or a sequence
-    of such, one for each of the axes.
-    """
-
-    @functools.wraps(draw)
-    def drawing(*data: Any, own: Mapping[str, Any] | Sequence[Any] = (), **options: Any) -> _Given:
-        before = _OWN.set([own] if isinstance(own, Mapping) else own)
-        try:
-            return draw(*data, **options)
-        finally:
-            _OWN.reset(before)
-
-    return drawing
 
 
 _PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}

@@ -98,38 +98,6 @@ def test_models_are_spelled_out_where_there_is_room(data):
     assert figure.legends[0].get_texts()[0].get_text() == "CE"
 
 
-DRAWINGS = {name for name in figures.__all__ if name.islower()} - {
-    "animate", "caption", "save_animation", "save_figure", "style",
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", sorted(DRAWINGS))
-def test_every_figure_takes_data_of_one_s_own(name):
-    """By the one argument; what it does is below."""
-    assert "own" in getattr(figures, name).__kwdefaults__
-
-
-def test_own_data_is_drawn_and_named(data):
-    own = {"mine": ([0.99, 0.995], [0.1, 0.2]), "theirs": ([0.985], [0.3])}
-    axes = figures.figure_14(data, own=own)[0]
-    drawn = {line.get_label(): line for line in axes.lines if line.get_label() in own}
-    for name, (x, y) in own.items():
-        np.testing.assert_array_equal(drawn[name].get_data(), (x, y))
-    assert drawn["mine"].get_marker() != drawn["theirs"].get_marker()
-    named = [text.get_text() for text in axes.figure.legends[0].texts]
-    assert named.count("mine") == named.count("theirs") == 1
-    # By axes; one without a legend has one of its own, and colors do not move.
-    run = xr.Dataset(
-        {"q": ("time", [0.0, 1.0]), "q_dot": ("time", [0.0, 1.0])}, {"time": [0.0, 1.0]},
-        {"ramp_time": 0.5, "omega": 1.0, "elements": 1, "element": "cable"},
-    )  # fmt: skip
-    plain, both = (figures.spin_up(run, **more) for more in ({}, {"own": [{}, {"a": (0, 1)}]}))
-    assert both[0].get_legend() is None
-    assert [text.get_text() for text in both[1].get_legend().texts] == ["a"]
-    assert both[1].lines[-1].get_color() == plain[1].lines[-1].get_color()
-    assert len(figures.spin_up(run)[1].lines) == 1
-
-
 @given(st.floats(1e-12, 1e14))
 def test_a_prefix_leaves_three_digits_before_the_point(value):
     factor, prefix = prefix_of(value)
