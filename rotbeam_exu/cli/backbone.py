@@ -131,35 +131,23 @@ def _frequencies(
     models: list[ReducedModel], amplitude: list[float], refused: list[Refusal]
 ) -> dict[str, list[Any]]:
     """Return the columns of the models, and add to `refused` why some have no number."""
-    if not models:
-        return {"amplitude a/L": list(amplitude)}
-    perturbed, exactly, ratio = [], [], []
-    for model in models:
-        name = model.variant.name
-        found = _each(model.frequency, amplitude, name, refused)
-        perturbed += found
-        ratio += [frequency / model.omega_n for frequency in found]
-        exactly += _each(model.exact_frequency, amplitude, name, refused)
-    return {
-        "variant": [model.variant.name for model in models for _ in amplitude],
-        "amplitude a/L": amplitude * len(models),
-        "Eq. 63 [rad/s]": perturbed,
-        "Eq. 41 exactly [rad/s]": exactly,
-        "Eq. 63 / ω_n": ratio,
-    }
 
-
-def _each(
-    frequency: Callable[[Any], Any], amplitude: list[float], name: str, refused: list[Refusal]
-) -> list[float]:
-    """Return the frequency at each amplitude, NaN where there is none."""
-    found = [math.nan] * len(amplitude)
-    for i, a in enumerate(amplitude):
+    def found(frequency: Callable[[Any], Any], a: float, name: str) -> float:
         try:
-            found[i] = float(frequency(a))
+            return float(frequency(a))
         except ValueError as error:
             refused.append((name, str(error)))
-    return found
+            return math.nan
+
+    rows = []
+    for model in models:
+        name = model.variant.name
+        for a in amplitude:
+            both = [found(one, a, name) for one in (model.frequency, model.exact_frequency)]
+            rows.append((name, a, *both, both[0] / model.omega_n))
+    titles = "variant", "amplitude a/L", "Eq. 63 [rad/s]", "Eq. 41 exactly [rad/s]", "Eq. 63 / ω_n"
+    columns = map(list, zip(*rows, strict=True))
+    return dict(zip(titles, columns, strict=True)) if rows else {titles[1]: list(amplitude)}
 
 
 def _exact_columns(orbits: Orbits, amplitude: list[float], times: int) -> dict[str, list[float]]:

@@ -97,17 +97,17 @@ class Results:
         """
         from ..datasets import dataset_of
 
-        named = () if compute is None else inputs
+        more = {} if isinstance(inputs, xr.Dataset) else inputs
 
         def described(result: Any) -> xr.Dataset:
             data = dataset_of(*result) if isinstance(result, tuple) else dataset_of(result)
-            return data.assign_attrs({k: inputs[k] for k in named if k not in data.coords})
+            return data.assign_attrs({k: more[k] for k in more if k not in data.coords})
 
         path = self.out / name
         writable_folder(self.out)
         refuse_to_replace(inputs, Path(f"{path}.nc"), force=self.force)
         try:
-            result: Any = inputs if compute is None else compute()
+            result: Any = compute() if compute else inputs
         except RuntimeError as error:
             for attribute, word in _PARTS.items():
                 if (part := getattr(error, attribute, None)) is not None:

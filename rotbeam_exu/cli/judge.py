@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from json import dumps
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from ..report.document import Record, document
 from ..report.page import report_page
@@ -26,9 +26,6 @@ from .job import require_writable, write_text
 from .motion import Config, configured, motion_of
 from .options import element_of
 from .output import bar, counter, print_columns, print_note, print_text, print_written
-
-if TYPE_CHECKING:
-    from ..verification.verify import Entry
 
 _SHORT = {
     "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
@@ -159,25 +156,17 @@ def verify(*, element: list[str] | None = None, config: Config = None) -> None:
     own = [formulation_entry(element_of(name)) for name in element or ()]
     file = configured(config)
     motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
-    entries = tuple(own) or entries_at_hand()
-    entries = tuple(replace(entry, step=motion.step) for entry in entries) if config else entries
-    found = [
-        verification_of(
-            entry, beam=file.beam if config else None, spin_up=motion.spin_up if config else None,
-            duration=motion.duration,
-        )
-        for entry in _tracked(entries)
-    ]  # fmt: skip
+    entries = own or entries_at_hand()
+    if config:
+        entries = [replace(entry, step=motion.step) for entry in entries]
+    mine: dict[str, Any] = {"beam": file.beam, "spin_up": motion.spin_up} if config else {}
+    found = []
+    with counter("verifying") as progress:
+        for entry in entries:
+            found.append(verification_of(entry, duration=motion.duration, **mine))
+            progress(len(found), len(entries))
     of_own = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
     print_judgements(found, of_own if config else "the paper's beam")
-
-
-def _tracked(entries: tuple[Entry, ...]) -> Iterator[Entry]:
-    """Yield each entry, and count it when the next one is asked for."""
-    with counter("verifying") as progress:
-        for done, entry in enumerate(entries, start=1):
-            yield entry
-            progress(done, len(entries))
 
 
 def print_judgements(found: Sequence[Judgement], about: str) -> None:

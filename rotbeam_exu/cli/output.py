@@ -11,7 +11,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Literal, Protocol
+from typing import Any, Literal
 
 from rich.console import Console
 from rich.progress import MofNCompleteColumn, Progress, ProgressColumn, TimeElapsedColumn
@@ -159,16 +159,12 @@ def _is_number(text: str) -> bool:
     return True
 
 
-class Drawn(Protocol):
-    """A bar, called with the work done, all of it, and perhaps another title."""
-
-    def __call__(self, done: float, whole: float, title: str | None = None, /) -> None:  # noqa: D102
-        ...
-
-
 @contextmanager
-def bar(title: str, *more: ProgressColumn) -> Iterator[Drawn]:
-    """Give a function to call with the work done and all of it; it draws on a terminal only."""
+def bar(title: str, *more: ProgressColumn) -> Iterator[Callable[..., None]]:
+    """Give a function to call with the work done, all of it, and perhaps another title.
+
+    It draws on a terminal only.
+    """
     console = new_console()
     with Progress(
         *Progress.get_default_columns(), *more, TimeElapsedColumn(), console=console,

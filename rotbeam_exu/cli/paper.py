@@ -46,18 +46,24 @@ def figure(
     $ rotbeam figure 9
     $ rotbeam figure 14 --jobs 2 -o paper
     """
-    from .. import comparison, figures
+    from .. import figures
 
     with figures.style(style):
         for n in numbered("figure", number, sorted(figures.PAPER_FIGURES)):
-            name = f"figure_{n}"
-            writable_folder(results.out)
-            with workers.counted(f"figure {n}") as how:
-                data = getattr(comparison, name)(**how if n in _SWEPT else {})
-            results.job(
-                name, data, draw=lambda _, data, name=name: getattr(figures, name)(data),
-                caption=f"Figure {n}. {figures.caption(n, data)}",
-            )  # fmt: skip
+            _make(n, workers, results)
+
+
+def _make(n: int, workers: Workers, results: Results) -> None:
+    from .. import comparison, figures
+
+    name = f"figure_{n}"
+    writable_folder(results.out)
+    with workers.counted(f"figure {n}") as how:
+        data = getattr(comparison, name)(**how if n in _SWEPT else {})
+    results.job(
+        name, data, draw=lambda figures, data: getattr(figures, name)(data),
+        caption=f"Figure {n}. {figures.caption(n, data)}",
+    )  # fmt: skip
 
 
 def table(number: str, /) -> None:
