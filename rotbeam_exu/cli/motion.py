@@ -22,13 +22,11 @@ Config = Annotated[
         "options given here replace its values. Without a file: the paper's beam."
     ),
 ]
-"""The option --config; `configured` reads it."""
 
 Omega = Annotated[
     float | None,
     Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
 ]
-"""A speed that is not guessed: see `omega_of`."""
 
 SteadySpeed = Annotated[
     float | None,
@@ -37,13 +35,11 @@ SteadySpeed = Annotated[
         "ω/ω_0 = 2.06 for any other."
     ),
 ]
-"""Speed after the ramp."""
 
 RampTime = Annotated[
     float | None,
     Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
 ]
-"""Ramp time."""
 
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's choices for its beam [rad/s, s, s, s]; other beams keep their ratios to ω_0."""

@@ -37,19 +37,13 @@ def whole(_: Any, tokens: Sequence[Token]) -> int:
 
 
 Whole = Annotated[int, Parameter(converter=whole)]
-"""A whole number."""
-
 Jobs = Annotated[int | None, Parameter(converter=whole)]
-"""A number of processes, or as many as there are cores."""
-
 Amplitudes = Annotated[
     list[float],
     Parameter(consume_multiple=True, show_default=lambda given: " ".join(f"{a:g}" for a in given)),
 ]
-"""One or several, shown as they are typed."""
 
 NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
-"""A switch of the commands that write a figure beside their data."""
 
 
 def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
@@ -154,12 +148,8 @@ class Workers:
             yield {"jobs": self.jobs, "cache": self.cache, "progress": progress}
 
 
-def _shapes() -> dict[str, Any]:
-    """Return the kinds of section that are known, by the option's value."""
-    return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
-
-
-_Section: Any = Literal[tuple(_shapes())] | None
+_SHAPES = {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
+_Section: Any = Literal[tuple(_SHAPES)] | None
 
 
 @Parameter(name="*")
@@ -187,7 +177,7 @@ class SectionOptions:
 
     def of(self, beam: AnyBlade) -> AnyBlade:
         """Return the beam with the section asked for, by default its own."""
-        kind = _shapes().get(self.section)
+        kind = _SHAPES.get(self.section)
         if self.ratio is None:
             return beam if kind is None else beam.with_shape(kind())
         if kind is None or "ratio" not in (field.name for field in fields(kind)):

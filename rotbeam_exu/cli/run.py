@@ -78,11 +78,8 @@ def run(
         steady = _measured(data, results.out / name)
         with bar("exact frequencies"):
             found = assess(case, steady, exact=not no_exact)
-        for title, text in (
-            *_inputs(case, f"{numerics.element}", chosen),
-            *_results(data, steady, found),
-        ):
-            print_line(title, text)
+        _print_inputs(case, f"{numerics.element}", chosen)
+        _print_results(data, steady, found)
         return found
 
     found = results.job(
@@ -104,34 +101,27 @@ def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
         raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
 
 
-def _inputs(case: RunCase, element: str, chosen: str) -> list[tuple[str, str]]:
-    """Return the lines on the inputs of the run."""
+def _print_inputs(case: RunCase, element: str, chosen: str) -> None:
     beam = case.beam
-    return [
-        (
-            "beam",
-            f"L = {beam.length:g} m, EI = {beam.bending_stiffness:.6g} N m², "
-            f"EA = {beam.axial_stiffness:.6g} N, m = {beam.mass:.6g} kg, "
-            f"ω_0 = {beam.omega_0:.6g} rad/s",
-        ),
-        (
-            "spin-up",
-            f"ω = {case.omega:g} rad/s in T = {case.ramp_time:g} s "
-            f"(Ω = {case.omega / beam.omega_0:.4f}{chosen})",
-        ),
-        *([("loads", "; ".join(map(str, case.loads)))] if case.loads else []),
-        (
-            "discretization",
-            f"{case.elements} × {element}; {case.frame} frame, "
-            f"step {case.step:g} s, {case.duration:g} s",
-        ),
-    ]
+    print_line(
+        "beam",
+        f"L = {beam.length:g} m, EI = {beam.bending_stiffness:.6g} N m², "
+        f"EA = {beam.axial_stiffness:.6g} N, m = {beam.mass:.6g} kg, "
+        f"ω_0 = {beam.omega_0:.6g} rad/s",
+    )
+    print_line(
+        "spin-up",
+        f"ω = {case.omega:g} rad/s in T = {case.ramp_time:g} s "
+        f"(Ω = {case.omega / beam.omega_0:.4f}{chosen})",
+    )
+    if case.loads:
+        print_line("loads", "; ".join(map(str, case.loads)))
+    numerics = f"{case.frame} frame, step {case.step:g} s, {case.duration:g} s"
+    print_line("discretization", f"{case.elements} × {element}; {numerics}")
 
 
-def _results(
-    data: xr.Dataset, steady: SteadyOscillation, found: Assessment
-) -> list[tuple[str, str]]:
-    """Return the lines on measurements, compared with the exact beam, and on the checks."""
+def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessment) -> None:
+    """Print measurements, compared with the exact beam, and checks."""
     worst = max(
         float(abs(data["direction_residual"]).max()),
         float(data["clamp_residual"].max()) / data.attrs["beam_length"],
@@ -139,25 +129,23 @@ def _results(
     drift, ripple = energy_drift(data)
     about = [name for name in data.data_vars if str(name).startswith("root_moment_")]
     largest = float((data[about].to_array() ** 2).sum("variable").max()) ** 0.5
-    plane = [("plane", data.attrs["out_of_plane"])] if "out_of_plane" in data.attrs else []
-    return [
-        ("natural frequency", f"ω_n = {found.omega_n:.6f} rad/s (mesh, steady rotation)"),
-        (
-            "steady amplitude",
-            f"{steady.amplitude:.5f} L half peak to peak, "
-            f"first harmonic {steady.first_harmonic:.5f} L",
-        ),
-        (
-            "steady frequency",
-            f"ω_NL = {steady.frequency:.6f} rad/s over {steady.cycles} cycles, "
-            f"ω_NL/ω_n = {steady.frequency / found.omega_n:.6f}; "
-            f"± {steady.frequency_error:.1g} rad/s, the estimator's, without mesh and step",
-        ),
-        *found.lines(),
-        ("largest root moment", f"{largest:.6g} N m"),
-        ("constraint residual", f"{worst:.2g} (worst)"),
-        ("energy drift", f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy"),
-        *plane,
-        ("wall time", f"{data.attrs['wall_time']:.2f} s"),
-        ("verdict", f"checks {data.attrs['verdict']}"),
-    ]
+    print_line("natural frequency", f"ω_n = {found.omega_n:.6f} rad/s (mesh, steady rotation)")
+    print_line(
+        "steady amplitude",
+        f"{steady.amplitude:.5f} L half peak to peak, first harmonic {steady.first_harmonic:.5f} L",
+    )
+    print_line(
+        "steady frequency",
+        f"ω_NL = {steady.frequency:.6f} rad/s over {steady.cycles} cycles, "
+        f"ω_NL/ω_n = {steady.frequency / found.omega_n:.6f}; "
+        f"± {steady.frequency_error:.1g} rad/s, the estimator's, without mesh and step",
+    )
+    for title, text in found.lines():
+        print_line(title, text)
+    print_line("largest root moment", f"{largest:.6g} N m")
+    print_line("constraint residual", f"{worst:.2g} (worst)")
+    print_line("energy drift", f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy")
+    if "out_of_plane" in data.attrs:
+        print_line("plane", data.attrs["out_of_plane"])
+    print_line("wall time", f"{data.attrs['wall_time']:.2f} s")
+    print_line("verdict", f"checks {data.attrs['verdict']}")
