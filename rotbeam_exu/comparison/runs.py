@@ -10,7 +10,6 @@ import numpy as np
 
 from analytic import Beam, SpinUp, periodic_orbits, reduced_model, spin_up_response
 from analytic.arrays import FloatArray
-from analytic.exact.free.orbits import Orbits
 from analytic.lazily import interpolate
 
 from ..fem.simulation import simulate
@@ -151,19 +150,15 @@ def figure_15(
     steady = steady_oscillation(run)
     period = 2.0 * np.pi / steady.frequency
     phase = np.linspace(0.0, 1.0, 201)
-    time = phase * period
-    per_length = 1.0 / (beam.omega_0 * beam.length)
-
-    q, q_dot = _from_the_peak(run, period, time)
-    orbits, periods = _of_theory(beam, omega, steady.amplitude, time)
-    orbits["finite element"] = (q / beam.length, q_dot * per_length)
-    periods["finite element"] = period
-    names = ["finite element", *MODELS, "exact"]
-    half_axes = np.array([np.abs(v).max() for v in orbits["finite element"]])
-    paths = {name: np.stack(orbit, axis=-1) / half_axes for name, orbit in orbits.items()}
-    q_bar, q_dot_bar = np.array([orbits[name] for name in names]).transpose(1, 0, 2)
-    gap = [float(np.linalg.norm(paths[name][-1] - paths[name][0])) for name in names]
-    distance = [_distance(paths[name], paths["finite element"]) for name in names]
+    q, q_dot = _from_the_peak(run, period, phase * period)
+    here = q / beam.length, q_dot / (beam.omega_0 * beam.length), period
+    theory = _of_theory(beam, omega, steady.amplitude, phase * period)
+    orbits = {"finite element": here, **theory}
+    names = list(orbits)
+    q_bar, q_dot_bar, periods = (np.array(one) for one in zip(*orbits.values(), strict=True))
+    paths = q_bar / np.abs(q_bar[0]).max() + 1j * q_dot_bar / np.abs(q_dot_bar[0]).max()
+    gap = np.abs(paths[:, -1] - paths[:, 0])
+    distance = [np.abs(path[:, None] - paths[0]).min(axis=1).max() for path in paths]
     along = ("model", "phase")
     return dataset(
         {
@@ -171,7 +166,7 @@ def figure_15(
             "q_dot_bar": (along, q_dot_bar, "tip velocity q̇/(ω₀L)"),
             "gap": ("model", gap, "gap from start to end over the half axes"),
             "distance": ("model", distance, "distance from the FE orbit over its half axes"),
-            "period": ("model", [periods[name] for name in names], "period [s]"),
+            "period": ("model", periods, "period [s]"),
         },
         {"model": (names, "model"), "phase": (phase, "time over the FE period")},
         {
@@ -186,29 +181,24 @@ def figure_15(
 
 def _of_theory(
     beam: Beam, omega: float, amplitude: float, time: FloatArray
-) -> tuple[dict[str, tuple[FloatArray, FloatArray]], dict[str, float]]:
-    """Return q/L and q̇/(ω0 L) of the models and the exact beam from their peak, and the periods."""
-    orbits, periods = {}, {}
+) -> dict[str, tuple[FloatArray, FloatArray, float]]:
+    """Return q/L, q̇/(ω0 L) and the period of models and exact beam, from their peak."""
+    orbits = {}
     with beyond_range():
         for name in MODELS:
             model = reduced_model(beam, omega, name)
             tip, a0 = model.perturbation, float(model.first_harmonic(amplitude))
-            frequency = model.frequency(a0)
+            frequency = float(model.frequency(a0))
             psi = frequency * time + tip.peak_phase(np.array(a0))
-            velocity = frequency * tip.rate(psi, a0)
-            orbits[name] = (tip.deflection(psi, a0), velocity / beam.omega_0)
-            periods[name] = 2.0 * np.pi / frequency
+            rate = frequency * tip.rate(psi, a0) / beam.omega_0
+            orbits[name] = tip.deflection(psi, a0), rate, 2.0 * np.pi / frequency
         exact = periodic_orbits(beam, omega, [amplitude])
-    x, x_rate = _from_exact_peak(exact, time)
-    orbits["exact"] = (x, x_rate / beam.omega_0)
-    periods["exact"] = 2.0 * np.pi / float(exact.frequency[0])
-    return orbits, periods
-
-
-def _distance(path: FloatArray, other: FloatArray) -> float:
-    """Return the largest distance of a point of `path` from the nearest of `other`, (n, 2) each."""
-    apart = np.linalg.norm(path[:, None] - other[None], axis=2)
-    return float(apart.min(axis=1).max())
+    (frequency,), (sines,), (start,) = exact.frequency, exact.harmonics, exact.peak_time
+    orders = np.arange(1, sines.size + 1)
+    phases = np.outer(frequency * (start + time), orders)
+    rate = frequency * np.cos(phases) @ (orders * sines) / beam.omega_0
+    orbits["exact"] = np.sin(phases) @ sines, rate, 2.0 * np.pi / float(frequency)
+    return orbits
 
 
 def _from_the_peak(
@@ -222,10 +212,3 @@ def _from_the_peak(
     turns = rate.roots(extrapolate=False)
     peak = next(t for t in turns if displacement(t) > 0.0 and t + period <= at[-1])
     return np.asarray(displacement(peak + time)), np.asarray(rate(peak + time))
-
-
-def _from_exact_peak(backbone: Orbits, time: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return x = q/L and dx/dt [1/s] of the first orbit from its peak."""
-    sines, orders = backbone.harmonics[0], np.arange(1, backbone.harmonics.shape[1] + 1)
-    phases = np.outer(backbone.frequency[0] * (backbone.peak_time[0] + time), orders)
-    return np.sin(phases) @ sines, backbone.frequency[0] * np.cos(phases) @ (orders * sines)

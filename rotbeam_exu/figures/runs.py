@@ -29,7 +29,7 @@ _DASHES = ((0, (1, 1)), (0, (5, 1, 1, 1)), "--")
 _POINTS: Any = {
     "ls": "none", "marker": "o", "ms": 3.0, "mfc": "white", "mec": "black", "mew": 0.6, "zorder": 6,
 }  # fmt: skip
-_DASHES_OF_ORBITS = ("-.", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), "--", ":")
+_DASHES_OF_ORBITS = ("-.", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)))
 
 
 def _shows_3(data: xr.Dataset) -> str:
@@ -126,36 +126,27 @@ def figure_4(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axe
     the same in both, and they have one scale.
     """
     width, height = (1.08 * float(np.abs(data[name]).max()) for name in ("q_bar", "q_dot_bar"))
-    looks: dict[tuple[float, float], tuple[str, Any]] = {}
-    fresh = iter(zip(cycle(), _DASHES_OF_ORBITS, strict=False))
-    common = _cases(data, "a") & _cases(data, "b")
+    fresh, common = list(zip(cycle(), _DASHES_OF_ORBITS, strict=False)), ("0.4", "-")
+    looks = [*fresh[:2], common, common, *fresh[2:]]
     with house_axes(ax, columns(), 2.9, ncols=2) as axes:
-        for panel, letter in zip(axes, "ab", strict=True):
-            here = data.isel(case=(data["panel"] == letter).to_numpy())
-            for case in range(here.sizes["case"]):
-                row = here.isel(case=case)
-                key = float(row["omega"]), float(row["ramp_time"])
-                if key not in looks:
-                    looks[key] = ("0.4", "-") if key in common else next(fresh)
-                color, dashes = looks[key]
-                q, rate = row["q_bar"].to_numpy(), row["q_dot_bar"].to_numpy()
-                names = f"ω = {key[0]:g} rad/s", f"T = {key[1]:g} s"
-                held, name = names if letter == "a" else names[::-1]
-                once = _first_turn(q, rate)
-                panel.plot(q, rate, color=color, lw=0.4, alpha=0.25)
-                panel.plot(q[once], rate[once], color=color, ls=dashes, label=name)
+        for case, (color, dashes) in enumerate(looks):
+            row = data.isel(case=case)
+            letter = row["panel"].item()
+            panel = axes["ab".index(letter)]
+            q, rate = row["q_bar"].to_numpy(), row["q_dot_bar"].to_numpy()
+            names = f"ω = {float(row['omega']):g} rad/s", f"T = {float(row['ramp_time']):g} s"
+            held, name = names if letter == "a" else names[::-1]
+            once = _first_turn(q, rate)
+            panel.plot(q, rate, color=color, lw=0.4, alpha=0.25)
+            panel.plot(q[once], rate[once], color=color, ls=dashes, label=name)
             panel.set_title(f"{letter}) {held}", loc="left")
+        for panel in axes:
             panel.set(
                 xlabel=label(data["q_bar"]), ylabel=label(data["q_dot_bar"]),
                 xlim=(-width, width), ylim=(-height, height),
             )  # fmt: skip
             panel.legend(loc="center")
     return tuple(axes)
-
-
-def _cases(data: xr.Dataset, letter: str) -> set[tuple[float, float]]:
-    here = data.isel(case=(data["panel"] == letter).to_numpy())
-    return set(zip(here["omega"].values.tolist(), here["ramp_time"].values.tolist(), strict=True))
 
 
 def _first_turn(q: Any, rate: Any) -> slice:
