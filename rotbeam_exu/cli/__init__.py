@@ -41,8 +41,8 @@ _COMMANDS = (
 """In the order of the work; each is imported when it is called."""
 
 _ROOMS = {
-    "compare": "paper", "figure": "paper", "table": "paper", "kit": "judge", "verify": "judge",
-    "schema": "doctor",
+    "reference": "run", "converge": "sweep", "compare": "paper", "figure": "paper",
+    "table": "paper", "kit": "judge", "verify": "judge", "schema": "doctor",
 }  # fmt: skip
 """Modules of the commands that have none of their own name."""
 

@@ -1,20 +1,33 @@
-"""`rotbeam sweep`: the paper's grid of spin-ups."""
+"""`rotbeam sweep` and `rotbeam converge`: spin-ups over a grid, and over meshes and steps."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 from cyclopts import Parameter
+
+from analytic.input_checks import positive, whole_number
+from analytic.warning import warn
 
 from .. import paper
 from ..files.beam_file import RunFile
 from ..lazily import xr
 from .driving import Driving
-from .job import Results
-from .motion import chosen_speeds, chosen_times, configured, grid_motion, refuse_rest
-from .options import Discretization, Workers
-from .output import formatted, print_columns, print_text
+from .job import Flag, Results
+from .motion import (
+    Config,
+    RampTime,
+    SteadySpeed,
+    chosen_speeds,
+    chosen_times,
+    configured,
+    grid_motion,
+    refuse_rest,
+)
+from .options import Discretization, Whole, Workers
+from .output import formatted, print_columns, print_line, print_note, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
@@ -118,3 +131,103 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
         where = "; ".join(f"ω = {omega:g} rad/s, T = {time:g} s" for omega, time in points)
         print_text(f"failed at {where}: {sentence}")
     return sum(map(len, failed.values()))
+
+
+def converge(
+    *,
+    omega: SteadySpeed = None,
+    ramp_time: RampTime = None,
+    tolerance: float = 1e-4,
+    count: Whole = 3,
+    discretization: Discretization = Discretization(),
+    driving: Driving = Driving(),
+    no_exact: Annotated[Flag, Parameter(name="--no-exact")] = False,
+    workers: Workers = Workers(),
+    config: Config = None,
+    results: Results = Results(),
+) -> None:
+    """Print the errors of a mesh and a step, and which to take.
+
+    Natural frequencies and one spin-up, as `run` has it, on coarser and finer meshes and smaller
+    steps; one fit to all of them gives errors and orders. Writes netCDF and CSV.
+
+    Parameters
+    ----------
+    tolerance
+        Wished relative error of the frequencies, and of q(t) over its largest size.
+    count
+        Number of frequencies.
+    no_exact
+        Leave out the exact beam; the errors are by the fit all the same.
+
+    Examples
+    --------
+    $ rotbeam converge
+    $ rotbeam converge --config beam.toml --tolerance 1e-3 --jobs 2 -o mine
+    """
+    from .. import comparison
+
+    file = configured(config)
+    numerics = discretization.over(file.numerics)
+    case = driving.spin_up_case(file, numerics, omega, ramp_time)
+    whole_number("elements", case.elements, least=2)
+    whole_number("count", count)
+    inputs = {**case.describe(), "tolerance": positive("tolerance", tolerance)}
+
+    def computed() -> xr.Dataset:
+        exact = not no_exact
+        with workers.counted("spin-ups") as how:
+            return comparison.refinement(case, count=count, tolerance=tolerance, exact=exact, **how)
+
+    name = f"converge-{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
+    results.job(name, inputs, computed, _print_errors)
+
+
+def _print_errors(data: xr.Dataset, _: xr.Dataset) -> None:
+    """Print errors, orders and what to take; warn where the mesh asked about misses it."""
+    print_columns(
+        {
+            "mode": [str(k) for k in data["mode"].values],
+            **{
+                f"{int(n)} elements": formatted(row, "+.1e")
+                for n, row in zip(data["mesh"], data["frequency_error"], strict=True)
+            },
+            "order": formatted(data["frequency_order"], ".1f"),
+            "limit less exact": formatted(data["exact_distance"], "+.1e"),
+        },
+        title="Natural frequencies: relative error by one fit to all meshes",
+    )
+    print_columns(
+        {
+            "elements": [str(n) for n in data["elements"].values],
+            "step [s]": formatted(data["step"], "g"),
+            "error": formatted(data["error"], ".1e"),
+            "of the mesh": formatted(data["in_mesh"], ".1e"),
+            "of the step": formatted(data["in_step"], ".1e"),
+            "from the exact": formatted(data["exact_error"], ".1e"),
+        },
+        title="q(t) over its largest size: error by one fit to all runs",
+    )
+    orders = formatted(map(float, (data["order"], data["order_in_step"])), ".1f")
+    print_line("orders of q(t)", f"{orders[0]} in the mesh, {orders[1]} in the step")
+    if "-" in orders:
+        print_note("-: the runs do not show it")
+    attrs, asked = data.attrs, data.sel(mesh=data.attrs["elements"], run=3)
+    tolerance = attrs["tolerance"]
+    take = f"{int(data['recommended_elements'])} elements, step {data['recommended_step']:.3g} s"
+    print_line(f"for {tolerance:g}", take)
+    worst = float(np.abs(asked["frequency_error"]).max())
+    # Their sum: errors of mesh and step may cancel, by luck.
+    error = float(asked["in_mesh"] + asked["in_step"])
+    if max(worst, error) > tolerance:
+        warn(
+            f"{attrs['elements']} elements with a step of {attrs['step']:g} s have errors of "
+            f"{worst:.1e} in the frequencies and of {error:.1e} in q(t), more than {tolerance:g}: "
+            f"take {take}"
+        )
+    limit = float(np.abs(data["exact_distance"]).max())
+    if limit > tolerance:
+        warn(
+            f"the limit of this element is {limit:.1e} from the exact frequencies, more than "
+            f"{tolerance:g}, so that no mesh mends it: take another element"
+        )
