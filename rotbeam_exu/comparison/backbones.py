@@ -31,44 +31,20 @@ _SAFETY = 1.25
 
 
 def finite_element_points(
-    beam: Beam | None = None,
+    beam: Beam,
+    mesh: Mesh,
     *,
     omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
-    mesh: Mesh = "paper",
     step: float = 1e-3,
     **options: Any,
 ) -> xr.Dataset:
-    """Points of the backbone from spin-ups of the finite element model, with error bars.
+    """Amplitude, ratio ω_NL/ω_n and their errors over (omega, ramp_time), of finite elements.
 
-    Parameters
-    ----------
-    beam : Beam, optional
-        By default the paper's.
-    omegas, ramp_times : sequences of float
-        The grid [rad/s], [s].
-    mesh : {"paper", "converged"}
-        "paper": 16 elements, inertial frame, step 1 ms; the uncertainty is the whole distance to a
-        step of zero, from steps of 1 and 2 ms. "converged": 64 elements, rotating frame, the same
-        steps extrapolated to zero; the uncertainty is a tenth of the extrapolation. Both add a
-        fifteenth of the change by half the elements, for a mesh error of fourth order, and the
-        estimator's own uncertainty.
-    step : float
-        The smaller step [s], for a beam that is faster or slower than the paper's.
-    **options
-        `duration`, `jobs`, `executor`, `cache`, `progress`, as for `sweep`.
-
-    Returns
-    -------
-    Dataset
-        Over (omega, ramp_time): amplitude [-], ratio ω_NL/ω_n [-] to the ω_n of the same mesh, and
-        their errors; `estimator_error`, the estimator's share in the error of the ratio.
+    `ω_n` is that of the same mesh; `estimator_error` is the estimator's share in the error of the
+    ratio. Options are those of `sweep`.
     """
-    if mesh not in _MESHES:
-        raise ValueError(f"unknown mesh {mesh!r}; known are 'paper' and 'converged'")
-    beam = beam or Beam.reference()
     elements, frame = _MESHES[mesh]
-
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, "frame": frame, **options}
 
     def measured(elements: int, step: float) -> tuple[xr.Dataset, xr.Dataset]:
@@ -119,10 +95,10 @@ def figure_5(**options: Any) -> xr.Dataset:
         omega, with `lambda_omega_error`: the points' own errors, plus the standard error by their
         scatter. The curves `fit` over (omega, a), up to a = 0.6. The exact backbone is `exact`
         over `exact_amplitude`, (omega, node), up to the largest point of each speed. Options are
-        those of `finite_element_points`.
+        those of `figure_14`.
     """
     beam = Beam.reference()
-    points = finite_element_points(beam, mesh="paper", **options)
+    points = finite_element_points(beam, "paper", **options)
     fit = _fitted(points)
     a = xr.DataArray(np.linspace(0.0, _FITTED, 61), dims="a", attrs=labeled(AMPLITUDE))
     curve = 1.0 - fit["lambda_omega"] * a**2 - fit["quartic"] * a**4
@@ -175,6 +151,23 @@ def figure_14(
 ) -> xr.Dataset:
     """Backbones of all models, the exact one, and the finite element points (Fig. 14).
 
+    Parameters
+    ----------
+    beam : Beam, optional
+        By default the paper's.
+    omegas, ramp_times : sequences of float
+        Grid of the spin-ups [rad/s], [s].
+    amplitudes : sequence of float
+        Peaks |q|/L of the curves.
+    meshes : sequence of {"paper", "converged"}
+        "paper": 16 elements, inertial frame, step 1 ms; the error is the whole distance to a step
+        of zero, from steps of 1 and 2 ms. "converged": 64 elements, rotating frame, the same steps
+        extrapolated to zero; the error is a tenth of the extrapolation. Both add a fifteenth of the
+        change by half the elements, for a mesh error of fourth order, and the estimator's own.
+    **options
+        `step`, the smaller one [s], for a beam that is faster or slower than the paper's;
+        `duration`, `jobs`, `executor`, `cache`, `progress`, as for `sweep`.
+
     Returns
     -------
     Dataset
@@ -182,13 +175,13 @@ def figure_14(
         `linear_frequency` ω_n [rad/s] over (model, omega); amplitude, ratio and their errors over
         (mesh, omega, ramp_time). Every amplitude is the peak of |q|/L; Eq. 63 is taken at its first
         harmonic. `as_printed` is Eq. 63 with a itself for the first harmonic, as the paper draws
-        it. Options as in `finite_element_points`. The attribute `out_of_plane` is there if the
+        it. The attribute `out_of_plane` is there if the
         section of a blade is known to leave the plane, and says at which speeds from which
         amplitudes on.
     """
     beam = beam or Beam.reference()
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, **options}
-    by_mesh = [finite_element_points(beam, mesh=mesh, **grid) for mesh in meshes]
+    by_mesh = [finite_element_points(beam, mesh, **grid) for mesh in meshes]
     points = xr.concat(by_mesh, dim="mesh")
     points["mesh"] = ("mesh", list(meshes), labeled("finite element mesh"))
     data = points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(

@@ -197,14 +197,9 @@ def _exact_coefficients(beam: Beam, omegas: FloatArray) -> FloatArray:
 
 
 SOURCES = (
-    "linear frequency",
-    "perturbation",
-    "shape",
-    "elongation",
-    "foreshortening",
-    "Coriolis modes",
+    "linear frequency", "perturbation", "shape", "elongation", "foreshortening", "Coriolis modes",
     "extensibility and higher order",
-)
+)  # fmt: skip
 """Sources of a reduced model's error, in the order in which they are taken away."""
 
 

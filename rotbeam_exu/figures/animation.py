@@ -31,7 +31,6 @@ _FAR = 100.0  # lengths: what is farther is drawn there, out of every view
 _CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}  # line of the clamp
 _CHORD = 0.1  # of the strip that shows how sections stand, over the length
 _ABOVE, _SIDE = 1, 2  # the direction that goes up in a view, y or z; x goes to the right
-
 _Moving = Callable[[int], None]  # draws a part anew at time number n
 
 
@@ -261,10 +260,10 @@ def _mark_instability(history: Axes, of: _Shown) -> None:
     history.axvline(start, color=RED, lw=0.8, ls=(0, (4, 3)), zorder=1)
     # Where there is more room.
     side, shift = ("right", -4) if start > 0.5 * of.fine[-1] else ("left", 4)
-    said = f"from {quantity(start, 's', 3)} on linear unstable"
     history.annotate(
-        said, (start, 1.0), xycoords=("data", "axes fraction"), xytext=(shift, -4),
-        textcoords="offset points", ha=side, va="top", color=RED,
+        f"from {quantity(start, 's', 3)} on linear unstable", (start, 1.0), ha=side, va="top",
+        xycoords=("data", "axes fraction"), xytext=(shift, -4), textcoords="offset points",
+        color=RED,
     )  # fmt: skip
 
 

@@ -81,7 +81,7 @@ def test_models_and_exact_beam_are_taken_at_one_amplitude(beam, lines):
 @pytest.mark.parametrize("step", [4e-3, pytest.param(1e-3, marks=pytest.mark.slow)])
 def test_the_bar_of_a_point_holds_the_exact_backbone(beam, step):
     run = {"omegas": (6.0,), "ramp_times": (3.0,), "step": step, "duration": 9.0}
-    here = comparison.finite_element_points(beam, **run, mesh="paper", jobs=1).squeeze()
+    here = comparison.backbones.finite_element_points(beam, **run, mesh="paper", jobs=1).squeeze()
     exact = periodic_orbits(beam, 6.0, [here["amplitude"].item()])
     distance = abs(here["ratio"].item() - exact.frequency[0] / exact.omega_n)
     assert here["estimator_error"] < 0.1 * here["ratio_error"]
