@@ -16,16 +16,8 @@ from ..files.results import load, whole_file
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
-from .motion import (
-    Config,
-    RampTime,
-    SteadySpeed,
-    chosen_times,
-    configured,
-    motion_of,
-    slower_than_paper,
-)  # fmt: skip
-from .options import Whole
+from .motion import chosen_times, configured, motion_of, slower_than_paper
+from .options import Config, RampTime, SteadySpeed, Whole
 from .output import bar, print_text
 
 

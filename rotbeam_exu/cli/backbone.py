@@ -15,8 +15,8 @@ from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from .job import Flag
-from .motion import Config, Omega, configured, omega_of
-from .options import Amplitudes, Whole
+from .motion import configured, omega_of
+from .options import Amplitudes, Config, Omega, Whole
 from .output import Format, bar, print_columns, print_note
 
 if TYPE_CHECKING:

@@ -23,8 +23,8 @@ from ..verification.submission import Run
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable, write_text
-from .motion import Config, configured, motion_of
-from .options import element_of
+from .motion import configured, element_of, motion_of
+from .options import Config
 from .output import bar, counter, print_columns, print_note, print_text, print_written
 
 _SHORT = {

@@ -1,45 +1,28 @@
-"""Beam, motion and step of a run: given, in the file, or chosen by the beam's own ω_0."""
+"""Beam, motion, mesh and loads of a run: given, in the file, or chosen by the beam's own ω_0."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from importlib import import_module
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Any, Self
 
 from cyclopts import Parameter
 
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive
+from analytic.loads import Load
 
+from ..fem.lazily import Frame
 from ..files.beam_file import RunFile, load_run_file
+from .options import Dampings, Loads, Whole
 
-Config = Annotated[
-    Path | None,
-    Parameter(
-        help="TOML file with [beam] or [blade], and optionally [motion], [numerics] and [[loads]]; "
-        "options given here replace its values. Without a file: the paper's beam."
-    ),
-]
-
-Omega = Annotated[
-    float | None,
-    Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
-]
-
-SteadySpeed = Annotated[
-    float | None,
-    Parameter(
-        help="Steady angular velocity [rad/s]; by default the benchmark's, 6 for its beam and "
-        "ω/ω_0 = 2.06 for any other."
-    ),
-]
-
-RampTime = Annotated[
-    float | None,
-    Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
-]
+if TYPE_CHECKING:
+    from ..fem.case import RunCase
+    from ..fem.elements import Formulation
 
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's choices for its beam [rad/s, s, s, s]; other beams keep their ratios to ω_0."""
@@ -184,3 +167,106 @@ def _one_two_five(value: float) -> float:
     exponent = math.floor(math.log10(value * (1.0 + 1e-9)))
     first = max(n for n in (1, 2, 5) if n <= value * (1.0 + 1e-9) / 10.0**exponent)
     return float(f"{first}e{exponent}")
+
+
+def element_of(name: str) -> Formulation:
+    """Return the formulation of a name, or of one's own class as module:Class."""
+    from ..fem.elements import formulation
+
+    module, colon, kind = name.partition(":")
+    if not colon:
+        return formulation(name)
+    sys.path.insert(0, str(Path.cwd()))  # as of `python -m`; a sweep's workers need it too
+    try:
+        return formulation(getattr(import_module(module), kind)())
+    except (AttributeError, ImportError, TypeError) as error:
+        raise ValueError(
+            f"no element can be made of {name}: {error}; give module:Class, the module in this "
+            "folder or installed"
+        ) from error
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Discretization:
+    """Discretization and integration of a run, as far as given.
+
+    Parameters
+    ----------
+    element
+        Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in
+        space space_cable, space_exact; or one's own, as module:Class.
+    elements
+        Number of elements, 16 unless given.
+    step
+        Step size of the integrator [s].
+    duration
+        End of the run [s].
+    frame
+        Coordinates of the model, inertial unless given.
+    """
+
+    element: str | None = None
+    elements: Whole | None = None
+    step: float | None = None
+    duration: float | None = None
+    frame: Frame | None = None
+
+    def over(self, numerics: Mapping[str, Any]) -> Self:
+        """Return the values given here, over those in a file, over the paper's.
+
+        Step and duration may be left to `chosen_motion`.
+        """
+        mine = {name: value for name, value in vars(self).items() if value is not None}
+        usual = {"element": "cable", "elements": 16, "frame": "inertial"}
+        return replace(self, **{**usual, **numerics, **mine})
+
+    @property
+    def name(self) -> str:
+        """Formulation and mesh as part of a file's name."""
+        return f"{self.element}".rpartition(":")[2] + f"-{self.elements}"
+
+    def case(self, beam: AnyBlade, motion: ChosenMotion, loads: Sequence[Load] = ()) -> RunCase:
+        """Return the case of a motion, whose step and duration are chosen."""
+        from ..fem.case import RunCase
+
+        mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
+        return RunCase(
+            beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
+            element=element_of(f"{self.element}"), loads=loads, **mesh,
+        )  # fmt: skip
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Driving:
+    """Loads and damping of a run, in place of those in its file.
+
+    Parameters
+    ----------
+    load_frequency
+        Frequency of the loads given as options [rad/s].
+    """
+
+    loads: Loads = field(default_factory=Loads)
+    dampings: Dampings = Dampings()
+    load_frequency: float | None = None
+
+    def chosen(self, in_file: Sequence[Load]) -> Sequence[Load]:
+        """Return the loads given as options, or else those of the file."""
+        loads = self.loads.all(self.load_frequency)
+        if self.load_frequency is None and any(one.varied == "frequency" for one in loads):
+            raise ValueError("give the frequency of the load in rad/s with --load-frequency")
+        return loads or in_file
+
+    def spin_up_case(
+        self, file: RunFile, numerics: Discretization, omega: float | None, ramp_time: float | None
+    ) -> RunCase:
+        """Return the case of a spin-up, by the options given, then by the file."""
+        motion = motion_of(
+            file, takes_loads=True, omega=omega, ramp_time=ramp_time, duration=numerics.duration,
+            step=numerics.step,
+        )  # fmt: skip
+        refuse_rest(motion.spin_up.omega)
+        beam = self.dampings.on(file.beam)
+        return numerics.case(beam, motion, self.chosen(file.loads))

@@ -1,30 +1,22 @@
-"""Options that several commands share."""
+"""Options that several commands share: workers, sections, loads and damping."""
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, fields, replace
-from importlib import import_module
+from dataclasses import MISSING, dataclass, fields, make_dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter, Token
 
-from analytic import AnyBlade
+from analytic import AnyBlade, Damping
 from analytic.description import kinds_of
 from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
-from ..fem.lazily import Frame
 from .job import Flag, telling_what_is_kept
-from .motion import ChosenMotion
 from .output import counter
-
-if TYPE_CHECKING:
-    from ..fem.case import RunCase
-    from ..fem.elements import Formulation
 
 
 def whole(_: Any, tokens: Sequence[Token]) -> int:
@@ -42,7 +34,28 @@ Amplitudes = Annotated[
     list[float],
     Parameter(consume_multiple=True, show_default=lambda given: " ".join(f"{a:g}" for a in given)),
 ]
-
+Config = Annotated[
+    Path | None,
+    Parameter(
+        help="TOML file with [beam] or [blade], and optionally [motion], [numerics] and [[loads]]; "
+        "options given here replace its values. Without a file: the paper's beam."
+    ),
+]
+Omega = Annotated[
+    float | None,
+    Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
+]
+SteadySpeed = Annotated[
+    float | None,
+    Parameter(
+        help="Steady angular velocity [rad/s]; by default the benchmark's, 6 for its beam and "
+        "ω/ω_0 = 2.06 for any other."
+    ),
+]
+RampTime = Annotated[
+    float | None,
+    Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
+]
 NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
 
 
@@ -54,74 +67,6 @@ def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
     if text in by_name:
         return [by_name[text]]
     raise ValueError(f"there is no {what} {text!r}: it must be {', '.join(by_name)} or all")
-
-
-def element_of(name: str) -> Formulation:
-    """Return the formulation of a name, or of one's own class as module:Class."""
-    from ..fem.elements import formulation
-
-    module, colon, kind = name.partition(":")
-    if not colon:
-        return formulation(name)
-    sys.path.insert(0, str(Path.cwd()))  # as of `python -m`; a sweep's workers need it too
-    try:
-        return formulation(getattr(import_module(module), kind)())
-    except (AttributeError, ImportError, TypeError) as error:
-        raise ValueError(
-            f"no element can be made of {name}: {error}; give module:Class, the module in this "
-            "folder or installed"
-        ) from error
-
-
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class Discretization:
-    """Discretization and integration of a run, as far as given.
-
-    Parameters
-    ----------
-    element
-        Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in
-        space space_cable, space_exact; or one's own, as module:Class.
-    elements
-        Number of elements, 16 unless given.
-    step
-        Step size of the integrator [s].
-    duration
-        End of the run [s].
-    frame
-        Coordinates of the model, inertial unless given.
-    """
-
-    element: str | None = None
-    elements: Whole | None = None
-    step: float | None = None
-    duration: float | None = None
-    frame: Frame | None = None
-
-    def over(self, numerics: Mapping[str, Any]) -> Self:
-        """Return the values given here, over those in a file, over the paper's.
-
-        Step and duration may be left to `chosen_motion`.
-        """
-        mine = {name: value for name, value in vars(self).items() if value is not None}
-        usual = {"element": "cable", "elements": 16, "frame": "inertial"}
-        return replace(self, **{**usual, **numerics, **mine})
-
-    @property
-    def name(self) -> str:
-        """Formulation and mesh as part of a file's name."""
-        return f"{self.element}".rpartition(":")[2] + f"-{self.elements}"
-
-    def case(self, beam: AnyBlade, motion: ChosenMotion, loads: Sequence[Load] = ()) -> RunCase:
-        """Return the case of a motion, whose step and duration are chosen."""
-        from ..fem.case import RunCase
-
-        mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
-        return RunCase(
-            beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
-            element=element_of(f"{self.element}"), loads=loads, **mesh,
-        )  # fmt: skip
 
 
 @Parameter(name="*")
@@ -148,7 +93,7 @@ class Workers:
             yield {"jobs": self.jobs, "cache": self.cache, "progress": progress}
 
 
-_SHAPES = {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
+_SHAPES: dict[str, Any] = {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
 _Section: Any = Literal[tuple(_SHAPES)] | None
 
 
@@ -192,5 +137,110 @@ class SectionOptions:
             raise ValueError(
                 "the section out of the plane is unknown: give --section rectangle or "
                 "--section tube, or [blade.section.out_of_plane] in --config"
+            )
+        return blade
+
+
+def option_of(kind: type[Load]) -> str:
+    """Return the name of a load without its article, as an option."""
+    return kind.called.split(maxsplit=1)[-1].replace(" ", "-")
+
+
+def _has_default(kind: Any) -> bool:
+    """Return whether the size of a load may be left out."""
+    return fields(kind)[0].default is not MISSING
+
+
+_KINDS = {
+    option_of(kind).replace("-", "_"): kind
+    for kind in sorted(kinds_of(Load).values(), key=_has_default)
+    if kind.varied
+}
+"""Loads that have a response, by their fields; loads that need no size come last."""
+
+
+class _Given:
+    """Options, the loads' sizes; without one, a load has its default size."""
+
+    def one(self) -> Load:
+        """Return the load, where one is given."""
+        given = self.all(None)
+        if len(given) != 1:
+            *others, last = (f"--{option_of(kind)}" for kind in _KINDS.values())
+            got = " and ".join(f"--{option_of(type(one))}" for one in given) or "none"
+            raise ValueError(f"give one load, {', '.join(others)} or {last}, got {got}")
+        return given[0]
+
+    def all(self, frequency: float | None) -> list[Load]:
+        """Return the loads, harmonic ones at a frequency [rad/s]."""
+        loads = []
+        for name, size in vars(self).items():
+            if size is None or size is False:
+                continue
+            kind: Any = _KINDS[name]
+            load: Any = kind() if size is True else kind(**{fields(kind)[0].name: size})
+            if load.size == 0.0:
+                raise ValueError(f"--{option_of(kind)} 0 is no load: give its amplitude")
+            harmonic = load.varied == "frequency" and frequency is not None
+            loads.append(replace(load, frequency=frequency) if harmonic else load)
+        return loads
+
+
+def _field(name: str, kind: Any) -> tuple[str, Any, bool | None]:
+    """Return the option of a kind of load, whose size may be left out if it has a default."""
+    about, size = (kind.__doc__ or "").partition("\n")[0].removesuffix("."), fields(kind)[0]
+    about += f"; {kind.symbol} [{kind.unit}]"
+    if not _has_default(kind):
+        return name, Annotated[float | None, Parameter(help=f"{about}.")], None
+    option = Parameter(
+        help=f"{about}, {size.default:g} unless given.",
+        negative=(), show_default=False, metavar="[FLOAT]",
+    )  # fmt: skip
+    return name, Annotated[bool | float, option], False
+
+
+# An option for each kind of load that is known.
+Loads: Any = Parameter(name="*")(
+    make_dataclass(
+        "Loads", [_field(*one) for one in _KINDS.items()],
+        bases=(_Given,), namespace={"__module__": __name__}, frozen=True, kw_only=True,
+    )
+)  # fmt: skip
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Dampings:
+    """Damping of the blade, in place of the damping in its file.
+
+    Parameters
+    ----------
+    damping_ratio
+        Damping ratio of mode 1 at rest, by damping of the bending.
+    external_damping
+        Force per length against the velocity in the turning frame [kg/(m s)]; point masses have
+        none.
+    """
+
+    damping_ratio: float | None = None
+    external_damping: float | None = None
+
+    def on(self, beam: AnyBlade) -> AnyBlade:
+        """Return the blade with this damping."""
+        if self.damping_ratio is not None and self.external_damping is not None:
+            raise ValueError("give --damping-ratio or --external-damping, not both")
+        if self.damping_ratio is not None:
+            return beam.with_damping(Damping.from_ratio(beam, 1, self.damping_ratio))
+        if self.external_damping is not None:
+            return beam.with_damping(Damping(external=self.external_damping))
+        return beam
+
+    def required_on(self, beam: AnyBlade) -> AnyBlade:
+        """Return the same; refuse an undamped blade, unless a zero is given."""
+        blade = self.on(beam)
+        if blade is beam and not any(beam.unit.damping):
+            raise ValueError(
+                "the blade is undamped, and at resonance its response has no end: give "
+                "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"
             )
         return blade

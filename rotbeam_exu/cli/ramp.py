@@ -12,8 +12,8 @@ from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
-from .motion import Config, SteadySpeed, chosen_times, configured, motion_of, refuse_rest
-from .options import Discretization, Whole
+from .motion import Discretization, chosen_times, configured, motion_of, refuse_rest
+from .options import Config, SteadySpeed, Whole
 from .output import counter, formatted, print_columns, print_note
 
 

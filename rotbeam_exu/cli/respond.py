@@ -12,10 +12,9 @@ from analytic.arrays import FloatArray
 from analytic.input_checks import positive, whole_number
 
 from ..lazily import xr
-from .driving import Dampings, Loads, option_of
 from .job import Flag, Results
-from .motion import Config, configured, omega_of
-from .options import NoFigure, Whole
+from .motion import configured, omega_of
+from .options import Config, Dampings, Loads, NoFigure, Whole, option_of
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:

@@ -15,10 +15,9 @@ from analytic.warning import warn
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from ..runs.check import energy_drift
-from .driving import Driving
 from .job import Flag, Results
-from .motion import Config, RampTime, SteadySpeed, configured, motion_of
-from .options import Discretization, NoFigure, Whole
+from .motion import Discretization, Driving, configured, motion_of
+from .options import Config, NoFigure, RampTime, SteadySpeed, Whole
 from .output import bar, print_line
 
 if TYPE_CHECKING:

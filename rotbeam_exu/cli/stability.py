@@ -15,8 +15,8 @@ from ..files.results import parts
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
-from .motion import Config, Omega, configured, omega_of
-from .options import Amplitudes, SectionOptions, Whole
+from .motion import configured, omega_of
+from .options import Amplitudes, Config, Omega, SectionOptions, Whole
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:

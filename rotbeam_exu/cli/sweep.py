@@ -14,19 +14,17 @@ from analytic.warning import warn
 from .. import paper
 from ..files.beam_file import RunFile
 from ..lazily import xr
-from .driving import Driving
 from .job import Flag, Results
 from .motion import (
-    Config,
-    RampTime,
-    SteadySpeed,
+    Discretization,
+    Driving,
     chosen_speeds,
     chosen_times,
     configured,
     grid_motion,
     refuse_rest,
 )
-from .options import Discretization, Whole, Workers
+from .options import Config, RampTime, SteadySpeed, Whole, Workers
 from .output import formatted, print_columns, print_line, print_note, print_text
 
 Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
