@@ -6,8 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import analytic
-from analytic import AnyBlade, Beam
-from analytic.reduced.tables import PaperTable
 
 from .. import paper
 from ..fem.lazily import require_exudyn
@@ -81,19 +79,15 @@ def table(number: str, /) -> None:
     $ rotbeam table 3
     $ rotbeam table all
     """
-    for one in numbered("table", number, range(1, 6)):
-        _print_table(analytic.paper_table(one))
-
-
-def _print_table(result: PaperTable) -> None:
     names = ("quantity", "printed", "derived", "difference", "note")
-    columns = {name: [getattr(row, name) for row in result.rows] for name in names}
-    notes = [note for note in dict.fromkeys(columns["note"]) if note]
-    marks = {note: chr(ord("a") + i) for i, note in enumerate(notes)}
-    columns["note"] = [marks.get(note, "") for note in columns["note"]]
-    print_columns(columns, title=f"Table {result.number}: {result.title}")
-    for note, mark in marks.items():
-        print_note(f"{mark}: {note}")
+    for result in map(analytic.paper_table, numbered("table", number, range(1, 6))):
+        columns = {name: [getattr(row, name) for row in result.rows] for name in names}
+        notes = [note for note in dict.fromkeys(columns["note"]) if note]
+        marks = {note: chr(ord("a") + i) for i, note in enumerate(notes)}
+        columns["note"] = [marks.get(note, "") for note in columns["note"]]
+        print_columns(columns, title=f"Table {result.number}: {result.title}")
+        for note, mark in marks.items():
+            print_note(f"{mark}: {note}")
 
 
 def compare(
@@ -124,7 +118,12 @@ def compare(
 
     require_exudyn()
     file = configured(config)
-    beam = _uniform(file.beam)
+    beam = file.beam.uniform
+    if beam is None:
+        raise ValueError(
+            "the paper's models, which compare needs, are for the uniform beam of [beam] only: for "
+            "a [blade] take rotbeam backbone --variant FrM --exact"
+        )
     mine = {} if config is None else beam_attributes(beam)
     omegas = chosen_speeds(beam, *paper.SPEEDS)
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
@@ -147,17 +146,6 @@ def compare(
     for name, found in data.items():
         results.job(name, found.assign_attrs(mine))
     _print_models(models, amplitude)
-
-
-def _uniform(beam: AnyBlade) -> Beam:
-    """Return the uniform beam; refuse a blade, which the paper's models do not describe."""
-    known = beam.uniform
-    if known is None:
-        raise ValueError(
-            "the paper's models, which compare needs, are for the uniform beam of [beam] only: for "
-            "a [blade] take rotbeam backbone --variant FrM --exact"
-        )
-    return known
 
 
 def _even(motion: ChosenMotion) -> ChosenMotion:

@@ -8,7 +8,6 @@ import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic.arrays import FloatArray
 from analytic.input_checks import positive, whole_number
 
 from ..lazily import xr
@@ -73,7 +72,9 @@ def respond(
             f"under --{option_of(type(load))} the rotation speeds are those --from one --to "
             "another: leave --omega out"
         )
-    frequencies = _frequencies(first, last, points)
+    if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
+        raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
+    frequencies = np.linspace(first, last, whole_number("points", points, least=2))
     inputs = {
         **response_inputs(beam, load, omega),
         "from": first, "to": last, "points": points, "inextensible": int(inextensible),
@@ -95,12 +96,6 @@ def respond(
         table=lambda data: data.drop_dims(["harmonic", "orbit"], errors="ignore"),
         draw=None if no_figure else lambda figures, data: figures.forced_response(data),
     )  # fmt: skip
-
-
-def _frequencies(first: float, last: float, points: int) -> FloatArray:
-    if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
-        raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
-    return np.linspace(first, last, whole_number("points", points, least=2))
 
 
 def _print(found: ForcedResponse, data: xr.Dataset) -> None:

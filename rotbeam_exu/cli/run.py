@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -60,6 +59,7 @@ def run(
     $ rotbeam run --config beam.toml --element exact --no-figure
     $ rotbeam run --gravity --damping-ratio 0.01 --no-exact
     """
+    from ..runs.oscillation import steady_oscillation
     from ..verification.assessment import assess
 
     file = configured(config)
@@ -78,7 +78,10 @@ def run(
             return run_case(case, stations=kept, progress=lambda done: drawn(done, 1.0))
 
     def shown(data: xr.Dataset, _: xr.Dataset) -> Assessment:
-        steady = _measured(data, results.out / name)
+        try:
+            steady = steady_oscillation(data)
+        except ValueError as error:  # as of a window that is too short
+            raise RuntimeError(f"{error}; the run itself is in {results.out / name}.nc") from error
         with bar("exact frequencies"):
             found = assess(case, steady, exact=not no_exact)
         _print_inputs(case, f"{numerics.element}", chosen)
@@ -92,16 +95,6 @@ def run(
     )  # fmt: skip
     for sentence in found.warnings(case.elements, case.step):
         warn(sentence)
-
-
-def _measured(data: xr.Dataset, path: Path) -> SteadyOscillation:
-    """Measure a run that is on file; a window that is too short loses nothing."""
-    from ..runs.oscillation import steady_oscillation
-
-    try:
-        return steady_oscillation(data)
-    except ValueError as error:
-        raise RuntimeError(f"{error}; the run itself is in {path}.nc") from error
 
 
 def _print_inputs(case: RunCase, element: str, chosen: str) -> None:

@@ -80,17 +80,16 @@ def figure_8() -> xr.Dataset:
 def figure_9() -> xr.Dataset:
     """λ_ω and λ_x of CI, and of the exact beam, against Ω (Fig. 9)."""
     beam = Beam.reference()
-    speed_ratio = np.linspace(0.0, 10.0, 201)
-    models = {"CI": (beam, "CI")}
-    return _coefficients(beam, models, "speed_ratio", speed_ratio, _SPEED_RATIO, beam.omega_0)
+    models = {"CI": (beam, "CI"), "exact": (beam, "exact")}
+    return _coefficients(models, "speed_ratio", 10.0, _SPEED_RATIO, beam.omega_0, points=201)
 
 
 def figure_10() -> xr.Dataset:
     """λ_ω and λ_x of the cantilever's mode, polynomials and the exact beam against ω (Fig. 10)."""
     beam = Beam.reference()
     polynomials = {f"degree {n}": (beam, f"P{n}") for n in (3, 4, 5)}
-    models = {"CI": (beam, "CI"), **polynomials}
-    return _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA)
+    models = {"CI": (beam, "CI"), **polynomials, "exact": (beam, "exact")}
+    return _coefficients(models, "omega", 30.0, OMEGA)
 
 
 def figure_11() -> xr.Dataset:
@@ -107,8 +106,8 @@ def figure_11() -> xr.Dataset:
         name = f"μ = {mu:.4g}"
         beams[name] = replace(beam, area=area, density=beam.mass_per_length / area)
     models = {name: (other, "CE") for name, other in beams.items()}
-    exact = {f"exact, {name}": other for name, other in beams.items()}
-    data = _coefficients(beam, models, "omega", np.linspace(0.0, 30.0, 151), OMEGA, exact=exact)
+    models |= {f"exact, {name}": (other, "exact") for name, other in beams.items()}
+    data = _coefficients(models, "omega", 30.0, OMEGA)
     return data.assign_attrs(held="L, m and EI are held, EA = EI/(μL²)")
 
 
@@ -150,32 +149,32 @@ def figure_13() -> xr.Dataset:
 
 
 def _coefficients(
-    beam: Beam,
     models: dict[str, tuple[Beam, str]],
     name: str,
-    axis: FloatArray,
+    last: float,
     label: str,
     scale: float = 1.0,
-    exact: dict[str, Beam] | None = None,
+    points: int = 151,
 ) -> xr.Dataset:
-    """λ_ω and λ_x over (model, axis), the exact ones last; NaN where there is no oscillation."""
-    omegas, exact = scale * axis, exact or {"exact": beam}
-    values = np.full((2, len(models) + len(exact), axis.size), np.nan)
+    """λ_ω and λ_x over (model, axis), of variants and "exact"; NaN where nothing oscillates."""
+    axis = np.linspace(0.0, last, points)
+    values = np.full((2, len(models), points), np.nan)
     with beyond_range():
-        for i, (other, variant) in enumerate(models.values()):
-            for j, omega in enumerate(omegas):
+        for i, (beam, variant) in enumerate(models.values()):
+            if variant == "exact":
+                values[:, i] = _exact_coefficients(beam, scale * axis)
+                continue
+            for j, omega in enumerate((scale * axis).tolist()):
                 try:
-                    model = reduced_model(other, float(omega), variant)
+                    model = reduced_model(beam, omega, variant)
                 except ValueError:
                     continue
                 values[:, i, j] = model.lambda_omega, model.lambda_x
-        for i, other in enumerate(exact.values(), len(models)):
-            values[:, i] = _exact_coefficients(other, omegas)
     dims = ("model", name)
     return dataset(
         {"lambda_omega": (dims, values[0], "λ_ω"), "lambda_x": (dims, values[1], "λ_x")},
-        {"model": ([*models, *exact], "model"), name: (axis, label)},
-        beam_attributes(beam),
+        {"model": (list(models), "model"), name: (axis, label)},
+        beam_attributes(Beam.reference()),
     )
 
 
