@@ -20,9 +20,6 @@ R = TypeVar("R")
 Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
 """A switch, off unless it is given."""
 
-_LONGEST = 60
-"""Letters of a value that are shown."""
-
 _PARTS = {"run": "computed", "response": "found"}
 """Attributes by which an error holds a part of the result, and a word for it."""
 
@@ -35,17 +32,6 @@ def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
     except KeyboardInterrupt as interrupt:
         told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
         raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
-
-
-def _all(data: xr.Dataset) -> xr.Dataset:
-    return data
-
-
-def _saved(data: xr.Dataset, path: Path, table: xr.Dataset) -> list[Path]:
-    """Write all as netCDF, and the table as CSV; return the files."""
-    # The endings are added, not replaced: a name may have a point in it.
-    whole = save(data, Path(f"{path}.nc"))
-    return [whole, *save_tables(table, Path(f"{path}.csv"))]
 
 
 @Parameter(name="*")
@@ -71,7 +57,7 @@ class Results:
         compute: Callable[[], R] | None = None,
         show: Callable[[R, xr.Dataset], Any] | None = None,
         *,
-        table: Callable[[xr.Dataset], xr.Dataset] = _all,
+        table: Callable[[xr.Dataset], xr.Dataset] | None = None,
         draw: Callable[[Any, xr.Dataset], Any] | None = None,
         caption: str = "",
     ) -> Any:
@@ -103,6 +89,11 @@ class Results:
             data = dataset_of(*result) if isinstance(result, tuple) else dataset_of(result)
             return data.assign_attrs({k: more[k] for k in more if k not in data.coords})
 
+        def saved(data: xr.Dataset, end: str = "") -> list[Path]:
+            # Endings are added, not replaced: a name may have a point in it.
+            whole = save(data, Path(f"{path}{end}.nc"))
+            return [whole, *save_tables(table(data) if table else data, Path(f"{path}{end}.csv"))]
+
         path = self.out / name
         writable_folder(self.out)
         refuse_to_replace(inputs, Path(f"{path}.nc"), force=self.force)
@@ -112,12 +103,12 @@ class Results:
             for attribute, word in _PARTS.items():
                 if (part := getattr(error, attribute, None)) is not None:
                     data = described(part).assign_attrs(verdict=f"failed: {error}")
-                    kept = _saved(data, Path(f"{path}-failed"), table(data))[0]
+                    kept = saved(data, "-failed")[0]
                     where = f"the part that was {word} is in {kept}, marked failed"
                     raise RuntimeError(f"{error}; {where}") from error
             raise
         data = described(result)
-        written = _saved(data, path, table(data))
+        written = saved(data)
         with telling_what_is_kept(lambda: f"kept: {', '.join(map(str, written))}"):
             shown = show(result, data) if show else None
             if draw:
@@ -167,4 +158,4 @@ def write_text(text: str, target: Path) -> None:
 def _typed(value: object) -> str:
     """Return a value as one would type it, the begin of a long one."""
     text = f"{value:.12g}" if isinstance(value, float) else str(value)
-    return shorten(text, _LONGEST, placeholder=" ...")
+    return shorten(text, 60, placeholder=" ...")

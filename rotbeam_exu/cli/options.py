@@ -130,16 +130,6 @@ class SectionOptions:
         # With another material than the beam's, of which the blade knows none.
         return beam.blade.with_shape(kind(ratio=self.ratio))
 
-    def required_of(self, beam: AnyBlade) -> AnyBlade:
-        """Return the same; refuse a beam whose section out of the plane is unknown."""
-        blade = self.of(beam)
-        if blade.section.out_of_plane is None:
-            raise ValueError(
-                "the section out of the plane is unknown: give --section rectangle or "
-                "--section tube, or [blade.section.out_of_plane] in --config"
-            )
-        return blade
-
 
 def option_of(kind: type[Load]) -> str:
     """Return the name of a load without its article, as an option."""
@@ -234,13 +224,3 @@ class Dampings:
         if self.external_damping is not None:
             return beam.with_damping(Damping(external=self.external_damping))
         return beam
-
-    def required_on(self, beam: AnyBlade) -> AnyBlade:
-        """Return the same; refuse an undamped blade, unless a zero is given."""
-        blade = self.on(beam)
-        if blade is beam and not any(beam.unit.damping):
-            raise ValueError(
-                "the blade is undamped, and at resonance its response has no end: give "
-                "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"
-            )
-        return blade

@@ -64,7 +64,12 @@ def respond(
 
     load = loads.one()
     file = configured(config)
-    beam = dampings.required_on(file.beam)
+    beam = dampings.on(file.beam)
+    if beam is file.beam and not any(beam.unit.damping):  # and no zero is given
+        raise ValueError(
+            "the blade is undamped, and at resonance its response has no end: give "
+            "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"
+        )
     if load.varied == "frequency":
         omega = omega_of(file, omega)
     elif omega is not None:

@@ -62,7 +62,12 @@ def stability(
     not_negative("damping-ratio", damping_ratio)
     file = configured(config)
     omega = omega_of(file, omega)
-    blade = shape.required_of(file.beam)
+    blade = shape.of(file.beam)
+    if blade.section.out_of_plane is None:
+        raise ValueError(
+            "the section out of the plane is unknown: give --section rectangle or --section tube, "
+            "or [blade.section.out_of_plane] in --config"
+        )
     amplitudes = sorted(set(amplitude))
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}

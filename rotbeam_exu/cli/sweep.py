@@ -12,7 +12,6 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from .. import paper
-from ..files.beam_file import RunFile
 from ..lazily import xr
 from .job import Flag, Results
 from .motion import (
@@ -66,7 +65,14 @@ def sweep(
     file = configured(config)
     beam = driving.dampings.on(file.beam)
     numerics = discretization.over(file.numerics)
-    omegas, ramp_times = _grid(file, omega, ramp_time)
+    omegas, ramp_times = omega, ramp_time
+    if omegas is None:
+        known = file.motion.get("omega")
+        omegas = chosen_speeds(file.beam, *paper.SPEEDS) if known is None else [known]
+    if ramp_times is None:
+        known = file.motion.get("ramp_time")
+        scaled = chosen_times(file.beam, *paper.RAMP_TIMES, digits=4)
+        ramp_times = scaled if known is None else [known]
     refuse_rest(*omegas)
     motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
     count = len(omegas) * len(ramp_times)
@@ -90,18 +96,6 @@ def sweep(
             f"{failed} of {count} spin-ups failed; why is above, and as `failure` in "
             f"{results.out / name}.nc"
         )
-
-
-def _grid(file: RunFile, omega: Values, ramp_time: Values) -> tuple[list[float], list[float]]:
-    """Return the values given, or the one of the file's [motion], or the paper's, scaled."""
-    if omega is None:
-        known = file.motion.get("omega")
-        omega = chosen_speeds(file.beam, *paper.SPEEDS) if known is None else [known]
-    if ramp_time is None:
-        known = file.motion.get("ramp_time")
-        scaled = chosen_times(file.beam, *paper.RAMP_TIMES, digits=4)
-        ramp_time = scaled if known is None else [known]
-    return omega, ramp_time
 
 
 def _print(result: xr.Dataset, _: xr.Dataset) -> int:

@@ -96,12 +96,15 @@ def refinement(
     runs = converged(elements, steps, q / scale, noise=FLOOR, declared=declared)
     off, apart = np.full(len(q), math.nan), np.full(len(modes), math.nan)
     if exact:
-        true = _exact_frequencies(case, len(modes))
-        apart = np.array([one.limit for one in modes]) * found[-1] / true - 1.0
+        theory = case.model.theory
+        # Else flap, lag and torsion would have to be sorted.
+        if not case.model.leaves_plane or lives_in_space(case.beam):
+            true = linear_modes(case.beam, case.omega, len(modes), theory=theory).frequencies
+            apart = np.array([one.limit for one in modes]) * found[-1] / true - 1.0
         motion: Any = case.spin_up  # a change of the speed
         response = spin_up_response(
             case.beam, motion, time, tolerance=max(0.1 * tolerance, 1e-8),
-            theory=case.model.theory, loads=case.loads,
+            theory=theory, loads=case.loads,
         )  # fmt: skip
         off = np.abs(q - response.q).max(axis=1) / scale
     needed = [_size(meshes, one.in_mesh, one.powers[0], tolerance) for one in modes]
@@ -138,13 +141,6 @@ def refinement(
         {"mesh": (meshes, "elements"), "mode": (np.arange(1, len(modes) + 1), "mode")},
         {**case.describe(), "tolerance": tolerance, "versions": json.dumps(versions())},
     )  # fmt: skip
-
-
-def _exact_frequencies(case: RunCase, count: int) -> FloatArray:
-    """Return the exact frequencies; of an element in space those of a blade that lives there."""
-    if case.model.leaves_plane and not lives_in_space(case.beam):
-        return np.full(count, math.nan)  # flap, lag and torsion would have to be sorted
-    return linear_modes(case.beam, case.omega, count, theory=case.model.theory).frequencies
 
 
 def _spun_up(

@@ -106,14 +106,9 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
             )  # fmt: skip
             which = f"{letter}) " if count > 1 else ""
             panel.set_title(f"{which}ω = {float(omega):g} rad/s", loc="left")
-        _spelled_legend(axes[0])
+        handles, names = axes[0].get_legend_handles_labels()
+        figure: Any = axes[0].get_figure(root=True)
+        if figure.get_figwidth() > 6.0:
+            names = [f"{n}: {MODEL_NAMES[n]}" if n in MODEL_NAMES else n for n in names]
+        figure.legend(handles, names, loc="outside lower center", ncols=3, columnspacing=1.4)
     return tuple(axes)
-
-
-def _spelled_legend(ax: Axes) -> None:
-    """Name the lines below the figure, in words if there is room for them."""
-    handles, names = ax.get_legend_handles_labels()
-    figure: Any = ax.get_figure(root=True)
-    if figure.get_figwidth() > 6.0:
-        names = [f"{name}: {MODEL_NAMES[name]}" if name in MODEL_NAMES else name for name in names]
-    figure.legend(handles, names, loc="outside lower center", ncols=3, columnspacing=1.4)

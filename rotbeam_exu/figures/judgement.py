@@ -42,7 +42,11 @@ def judged_figures(name: str, judgement: Judgement) -> Iterator[tuple[str, str]]
                 "run up to each time; dashed: the threshold for a limit."
             )
             yield svg(_history(histories)), caption
-        drawn = _fitted(judgement, name)
+        drawn = {  # what has a limit
+            quantity: one.runs
+            for quantity, one in judgement.findings[name].items()
+            if one.runs is not None and math.isfinite(one.runs.limit)
+        }
         if not drawn:
             return
         steps = any(np.unique(runs.steps).size > 1 for runs in drawn.values())
@@ -158,15 +162,6 @@ def _draw_errors(
     ax.margins(0.12)
     _whole_decades(ax)
     ax.legend(loc="best")
-
-
-def _fitted(judgement: Judgement, name: str) -> dict[str, Convergence]:
-    """Return what has a limit, by quantity."""
-    return {
-        quantity: one.runs
-        for quantity, one in judgement.findings[name].items()
-        if one.runs is not None and math.isfinite(one.runs.limit)
-    }
 
 
 def _draw_cost(ax: Axes, histories: Histories) -> None:
