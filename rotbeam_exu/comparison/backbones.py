@@ -60,9 +60,10 @@ def finite_element_points(
     # The step's error is of second order, the mesh's of fourth.
     to_zero_step = (points - coarse_step) / 3.0
     mesh_left = abs(coarse_step - coarse_mesh) / 15.0
-    step_left = abs(to_zero_step)
+    step_left, steps = abs(to_zero_step), f"step {1e3 * step:g} ms"
     if mesh == "converged":
         points, step_left = points + to_zero_step, 0.1 * step_left
+        steps = f"steps of {1e3 * step:g} and {2e3 * step:g} ms extrapolated to zero"
     error = _SAFETY * (step_left + mesh_left) + bar
     for name, label in {"amplitude": AMPLITUDE, "ratio": RATIO}.items():
         points[name].attrs = labeled(label)
@@ -70,16 +71,9 @@ def finite_element_points(
         points[f"{name}_error"] = error[name].assign_attrs(whole)
     alone = labeled("error of the ratio: estimator alone")
     points["estimator_error"] = bar["ratio"].assign_attrs(alone)
-    points.attrs = {**beam_attributes(beam), "mesh": mesh, "meshes": _numerics(mesh, step)}
+    numerics = f"{elements} cable elements, {frame} frame, {steps}"
+    points.attrs = {**beam_attributes(beam), "mesh": mesh, "meshes": numerics}
     return points
-
-
-def _numerics(mesh: Mesh, step: float) -> str:
-    elements, frame = _MESHES[mesh]
-    steps = f"step {1e3 * step:g} ms"
-    if mesh == "converged":
-        steps = f"steps of {1e3 * step:g} and {2e3 * step:g} ms extrapolated to zero"
-    return f"{elements} cable elements, {frame} frame, {steps}"
 
 
 def figure_5(**options: Any) -> xr.Dataset:
