@@ -93,8 +93,12 @@ class Workers:
             yield {"jobs": self.jobs, "cache": self.cache, "progress": progress}
 
 
-_SHAPES: dict[str, Any] = {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
-_Section: Any = Literal[tuple(_SHAPES)] | None
+def _shapes() -> dict[str, Any]:
+    """Return the kinds of section that are known by now, by the option's value."""
+    return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
+
+
+_Section: Any = Literal[tuple(_shapes())] | None
 
 
 @Parameter(name="*")
@@ -122,7 +126,7 @@ class SectionOptions:
 
     def of(self, beam: AnyBlade) -> AnyBlade:
         """Return the beam with the section asked for, by default its own."""
-        kind = _SHAPES.get(self.section)
+        kind = _shapes().get(self.section)
         if self.ratio is None:
             return beam if kind is None else beam.with_shape(kind())
         if kind is None or "ratio" not in (field.name for field in fields(kind)):

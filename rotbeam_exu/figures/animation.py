@@ -100,8 +100,7 @@ def animate(
     Raises
     ------
     ValueError
-        If there are fewer than two stations or times, or `beside` is of other times or of another
-        motion.
+        If stations or times are fewer than two, or `beside` has other times or another motion.
     """
     main, other = _Shown(data), None if beside is None else _Shown(beside)
     time = main.time
