@@ -174,22 +174,21 @@ def _confirmed(of: ModePath, found: dict[float, BeamOrbit]) -> dict[float, BeamO
     The branch is computed again on more functions, which may lead into another orbit, until that
     changes no frequency. The last change is the error.
     """
+    suspects = list(found)
     for _ in range(_RELAID):
-        suspects = [a for a, o in found.items() if outstanding(of, o)]
+        suspects = [a for a in suspects if outstanding(of, found[a])]
         if not suspects:
             break
         of = replace(of, model=of.path.seed.system.refined().model)
         finer, _ = _found(of, np.sort(suspects))
-        changes = []
+        changing = []
         for a in suspects:
             one = finer.get(a, found[a])
-            changes.append(
-                abs(one.frequency / found[a].frequency - 1.0) if a in finer else math.inf
-            )
-            error = max(one.frequency_error, changes[-1])
-            found[a] = replace(one, frequency_error=error)
-        if max(changes) <= FREQUENCY_BOUND:
-            break
+            change = abs(one.frequency / found[a].frequency - 1.0) if a in finer else math.inf
+            found[a] = replace(one, frequency_error=max(one.frequency_error, change))
+            if change > FREQUENCY_BOUND:
+                changing.append(a)
+        suspects = changing
     return found
 
 
