@@ -134,16 +134,12 @@ class Variations(Described, abstract=True):
         return replace(self.blade, damping=damping)
 
     def with_section_out_of_plane(
-        self,
-        bending_ratio: float,
-        torsion_ratio: float | None = None,
-        polar_inertia: float | None = None,
+        self, bending_ratio: float, torsion_ratio: float | None = None
     ) -> Blade:
         """Return the blade with these of `OutOfPlane`: EI out of the plane and GJ over its EI."""
-        given = OutOfPlane(
-            bending_ratio=bending_ratio, torsion_ratio=torsion_ratio, polar_inertia=polar_inertia
+        return self._with_out_of_plane(
+            OutOfPlane(bending_ratio=bending_ratio, torsion_ratio=torsion_ratio)
         )
-        return self._with_out_of_plane(given)
 
     def with_shape(self, shape: SectionShape) -> Blade:
         """Return the blade with a shape as its section, refusing one with another I/A or A.
