@@ -17,11 +17,10 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import FloatArray, Profile
+from .arrays import FloatArray, Profile, evaluated, in_units
 from .description import Described
 from .input_checks import finite_array, finite_number, not_negative, positive, shown
 from .parts import STRAIGHT, UNDAMPED, Damping, Line, Offset, PointMass
-from .profiles import evaluated, in_units
 from .section import OutOfPlane, Section
 from .section_shapes import Gyration, SectionShape
 from .shape_functions import shape_functions

@@ -12,10 +12,9 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from .arrays import FloatArray, Profile
+from .arrays import FloatArray, Profile, evaluated, in_units, stations, times
 from .description import Described
 from .input_checks import checked_profile, positive, warn_if_giga
-from .profiles import evaluated, in_units, stations, times
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,10 +20,10 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
-from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
 from analytic.exact.beam.steady import SteadyBeam, blade_continuum, steady_rotation
 from analytic.exact.driven.forced import DrivenBlade
 from analytic.exact.plane.growth import STEPS, grown
+from analytic.exact.plane.out_of_plane import OutOfPlaneMotion, Space, with_points_for
 from analytic.exact.space.steady import SpaceBlade, space_continuum
 from analytic.methods.floquet import flow
 from analytic.methods.system import Tangent

@@ -22,9 +22,9 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.beam.space import Space, with_points_for
 from analytic.exact.beam.steady import blade_continuum, steady_rotation
 from analytic.exact.plane.growth import _steady_modes, planar_note, planar_orbits
+from analytic.exact.plane.out_of_plane import Space, with_points_for
 from analytic.exact.plane.planarity import PlanarStability, growth_rates
 from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER

@@ -18,6 +18,9 @@ PLAIN = {
         "analytic.exact.linear.tracking.Crossing analytic.reduced.linear_frame.LinearResponse "
         "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
         "analytic.exact.plane.stability_limit.StabilityLimit "
+        "analytic.exact.driven.response.SpinUpResponse analytic.exact.free.backbone.Backbone "
+        "analytic.exact.free.branches.BackboneBranch "
+        "analytic.exact.plane.planarity.PlanarStability "
         "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam "
         "analytic.reduced.model.ReducedModel rotbeam_exu.runs.oscillation.SteadyOscillation"
     ),

@@ -50,14 +50,6 @@ class BackboneBranch(Branch):
     resonances : tuple of Resonance
         Where a harmonic of the orbits on the main path meets another mode, by the Floquet exponents
         about them, ascending.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Theory, backbone
-    >>> theory = Theory(extension=False)
-    >>> found = backbone(Beam.reference(), omega=6.0, theory=theory).branch(up_to=0.1)
-    >>> print(f"{found.frequency[-1]:.5f} rad/s at {found.amplitude[-1]:.2f} L")
-    3.73001 rad/s at 0.10 L
     """
 
     omega: float

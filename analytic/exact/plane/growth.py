@@ -16,9 +16,9 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.space import OutOfPlaneMotion, Space, with_points_for
 from ..beam.steady import SteadyBeam, resolved_model
 from ..free.path import AmplitudeNotReachedError, ModePath
+from .out_of_plane import OutOfPlaneMotion, Space, with_points_for
 
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""

@@ -131,18 +131,10 @@ def stability_limit(
 
     Parameters
     ----------
-    blade : Blade
-        With a section out of the plane.
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        In-plane mode from which the orbits grow, from 1.
-    damping : float
-        Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
+    blade, omega, mode, damping, theory
+        As for `planar_stability`.
     largest : float
         Largest |q|/L to look at.
-    theory : Theory
-        Of the orbits, without shear.
 
     Raises
     ------

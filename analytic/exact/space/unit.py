@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...arrays import FloatArray, Profile
+from ...arrays import FloatArray, Profile, evaluated
 from ...parts import STRAIGHT, Line, Offset, scaled
-from ...profiles import evaluated
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
 from ...station_section import StationSection

@@ -23,16 +23,15 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import FloatArray
+from ...arrays import FloatArray, evaluated
 from ...beam import AnyBlade, require_out_of_plane
 from ...lazily import linalg
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
-from ...profiles import evaluated
 from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import BERNOULLI_EULER, Theory
-from .continuum import Continuum
-from .steady import SteadyBeam
+from ..beam.continuum import Continuum
+from ..beam.steady import SteadyBeam
 
 
 @lru_cache(maxsize=32)
