@@ -249,12 +249,6 @@ def _tongues(orbits: PlanarOrbits, seen: dict[float, Growth], limit: float) -> t
                 low = _bisected(orbits, before, low, 0.0) if before else low
                 high = _bisected(orbits, after, high, 0.0) if math.isfinite(after) else high
             found.append(
-                Tongue(
-                    low=low,
-                    high=high,
-                    growth=most.per_radian,
-                    kind=most.kind,
-                    modes=most.modes,
-                )
+                Tongue(low=low, high=high, growth=most.per_radian, kind=most.kind, modes=most.modes)
             )
     return tuple(found)
