@@ -119,8 +119,6 @@ class Changes:
         about = change + cross(W, self.turn_m)
         pull += cross(about, offset)
         pull += cross(self.turn_m, cross(total, offset)) + cross(total, self._offset)
-        if not self._model.masses.turns:
-            return pull, about
         couple = cross(self.turn_m, turned(self._inertia, motion.total_spin))
         return pull, couple + turned(self._inertia, about) + cross(total, self._carried)
 
@@ -156,8 +154,6 @@ class Changes:
         pull += cross(about, offset) + cross(motion.total_spin_rate, self._offset)
         pull += cross(spins_m, cross(total, offset))
         pull += cross(total, cross(spins_m, offset) + cross(total, self._offset))
-        if not self._model.masses.turns:
-            return velocity, pull, about
         couple = self._turned_inertia(motion.total_spin_rate, about)
         couple += cross(spins_m, turned(self._inertia, motion.total_spin))
         couple += cross(total, self._turned_inertia(motion.total_spin, spins_m))
