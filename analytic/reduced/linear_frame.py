@@ -35,19 +35,10 @@ class LinearResponse:
 
     Attributes
     ----------
-    beam : Beam or Blade
-    spin_up : SpinUp, FourierRamp or SpeedTable
-    foreshortening : bool
-        Whether the model has the term that stiffens.
-    time : ndarray (times,)
-        Times [s].
-    q : ndarray (times,)
-        Deflection of the tip across the turning line of the clamp, Eq. 16 [m].
-    points : ndarray (points,)
-        Material points asked for [m].
-    axis : ndarray (times, points, 2)
-        Their positions in the frame that turns with the clamp [m]. A linear
-        model moves them across only: it grows longer as it bends.
+    beam, spin_up, foreshortening : as given
+    time, q, points, axis : ndarray
+        As of `SpinUpResponse`. A linear model moves the points across only: it grows longer as it
+        bends.
     """
 
     beam: AnyBlade

@@ -87,15 +87,12 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
     pieces = [[(orbit, "") for orbit in main], *filter(None, [*tongues, end])]
     orbits, marks = zip(*(marked for piece in pieces for marked in piece), strict=True)
     return BackboneBranch(
-        beam=of.beam,
+        **BackboneBranch.told(of.beam, orbits),
         omega=of.omega,
         mode=of.mode,
-        amplitude=np.array([orbit.amplitude for orbit in orbits]),
-        frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
         marks=marks,
         piece=np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces]),
         resonances=tuple(met),
-        nondimensional=orbits,
     )
 
 
