@@ -272,16 +272,12 @@ def _packed(
     orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
-    per_second = beam.frequency_scale
     return kind(
-        beam=beam,
+        **kind.told(beam, orbits),
         load=load,
         theory=theory,
-        omega=per_second * np.array([o.system.speed(o.frequency) for o in orbits]),
-        frequency=per_second * np.array([orbit.frequency for orbit in orbits]),
-        amplitude=np.array([orbit.amplitude for orbit in orbits]),
+        omega=beam.frequency_scale * np.array([o.system.speed(o.frequency) for o in orbits]),
         harmonics=np.array(harmonics),
         residual=np.array([orbit.residual for orbit in orbits]),
         marks=marks,
-        nondimensional=orbits,
     )

@@ -211,19 +211,15 @@ def _packed(of: ModePath, orbits: list[BeamOrbit], kind: type[Orbits]) -> Orbits
     """Return the orbits as a value."""
     softening, error = of.softening()
     count = max(orbit.harmonics for orbit in orbits)
-    per_second = of.beam.frequency_scale
     return kind(
-        beam=of.beam,
+        **kind.told(of.beam, orbits),
         omega=of.omega,
         mode=of.mode,
         omega_n=of.omega_n,
-        amplitude=np.array([orbit.amplitude for orbit in orbits]),
-        frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
         lambda_omega=softening,
         lambda_omega_error=error,
         harmonics=np.array([np.pad(o.gauge_sines, (0, count - o.harmonics)) for o in orbits]),
         frequency_error=np.array([orbit.frequency_error for orbit in orbits]),
         residual=np.array([orbit.residual for orbit in orbits]),
         jacobi_drift=np.array([orbit.invariant_drift for orbit in orbits]),
-        nondimensional=tuple(orbits),
     )
