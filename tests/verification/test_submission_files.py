@@ -239,7 +239,7 @@ FAULTS = [
     ("P.csv", lambda text: text.replace(",twist", ",turn"), "there is no column twist"),
     ("P.csv", lambda text: text.replace("8,1.0", "8,5"), "speed 5 is not asked for"),
     ("F.csv", lambda text: text.replace(",7,", ",9,"), "number 9 is not asked for"),
-    ("F.csv", lambda text: text.replace("61.803398875", "61.8"), "are written to 3"),
+    ("F.csv", lambda text: text.replace("61.803398875", "61.8"), "is written to 3"),
     ("W/m016_h1e-3.csv", lambda text: text.replace("lag", "q"), ":1: unknown column 'q'"),
     ("entry.toml", None, "there is no such file"),
     ("entry.toml", lambda text: text + "\norder =", "is not valid TOML"),
