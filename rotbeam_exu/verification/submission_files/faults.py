@@ -72,11 +72,10 @@ class Folder:
 
     def add_all(self, file: str, found: Iterable[tuple[str, int | None]]) -> bool:
         """Keep faults with their lines, and return whether there are any."""
-        any_found = False
-        for said, line in found:
+        kept = list(found)
+        for said, line in kept:
             self.add(file, said, line)
-            any_found = True
-        return any_found
+        return bool(kept)
 
     @property
     def faults(self) -> tuple[Fault, ...]:

@@ -43,11 +43,10 @@ def runs_of(folder: Folder, only: Collection[str]) -> tuple[Run, ...]:
     for row in listed:
         if only and row["case"] not in only:
             continue
-        samples: dict[str, Any] | None = {"time": np.empty(0), "q": np.empty(0)}
-        if "failure" not in row:
-            case, step = CASES[row["case"]], row.get("step", math.nan)
-            samples = history_of(folder, row["file"], case, step)
-        if samples:
+        case, step = CASES[row["case"]], row.get("step", math.nan)
+        if "failure" in row:
+            found.append(Run(**row, time=np.empty(0), q=np.empty(0)))
+        elif samples := history_of(folder, row["file"], case, step):
             found.append(Run(**row, **samples))
     if not folder.is_faulty(FILE):
         known = {row["file"] for row in listed}
@@ -63,8 +62,7 @@ def _listed(folder: Folder) -> Iterator[dict[str, Any]]:
     seen: dict[tuple[str, int, float], int] = {}
     first: dict[str, str] = {}
     for line, _, row in tables.rows_of(folder, tables.sheet_of(folder, FILE, tables.RUNS)):
-        case, name = row["file"].split("/")
-        elements, kind, size = tables.HISTORY_NAME.fullmatch(name).groups()  # type: ignore[union-attr]
+        case, elements, kind, size = row["file"].groups()
         of, other = ("step", "tolerance") if kind == "h" else ("tolerance", "step")
         place = case, row["elements"], row.get(of, 0.0)
         alike = math.isclose(place[2], float(size), rel_tol=_ROUNDED) and other not in row
@@ -76,7 +74,7 @@ def _listed(folder: Folder) -> Iterator[dict[str, Any]]:
         elif seen.setdefault(place, line) != line:
             said = f"the same case, mesh and {of} stand in line {seen[place]}: keep one"
         else:
-            yield row | {"case": case}
+            yield row | {"file": row["file"][0], "case": case}
             continue
         folder.add(FILE, said, line)
 

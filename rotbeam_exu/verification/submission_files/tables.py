@@ -27,10 +27,10 @@ DIGITS, LEAST_DIGITS = 8, 5
 9.5e-3 of q(t). Between them the last digit is an error, which widens the floor."""
 
 HISTORIES = [name for name, case in CASES.items() if case.asked is Asked.HISTORY]
-HISTORY_NAME = re.compile(
-    r"m([0-9]{1,9})_([ht])((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv"
+_HISTORY = re.compile(
+    r"([^/]*)/m([0-9]{1,9})_([ht])((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv"
 )
-"""Name of a history's file: elements, and step [s] or tolerance."""
+"""Name of a history's file: case, elements, and step [s] or tolerance."""
 
 _NUMBER = re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _FORTRAN = re.compile(r"[-+]?[0-9]*(\.[0-9]*)?[dD][-+]?[0-9]+")
@@ -60,7 +60,7 @@ class Column:
     unit: str = ""
     must: str = ""
     among: Sequence[float] = ()
-    text: Callable[[str], str] | None = None
+    text: Callable[[str], Any] | None = None
     needed: bool = True
     measured: bool = False
 
@@ -100,20 +100,20 @@ def number(name: str, cell: str) -> float:
     raise ValueError(f"{name}: {shown(cell)} {why}")
 
 
-def _history_name(cell: str) -> str:
-    case, _, name = cell.partition("/")
+def _history(cell: str) -> re.Match[str]:
+    case, match = cell.partition("/")[0], _HISTORY.fullmatch(cell)
     if case not in HISTORIES:
         among = f"known are {', '.join(HISTORIES)}"
         raise ValueError(f"{shown(case)} is no case with a history; {among}")
-    if not HISTORY_NAME.fullmatch(name):
+    if match is None:
         remedy = f"write {case}/m032_h1e-3.csv, or _t1e-6 of a tolerance"
         raise ValueError(f"{shown(cell)} is no name of a history: {remedy}")
-    return cell
+    return match
 
 
 ELEMENTS, FAILURE = Column("elements", must=WHOLE), Column("failure", text=str, needed=False)
 RUNS = (
-    Column("file", text=_history_name), ELEMENTS,
+    Column("file", text=_history), ELEMENTS,
     Column("step", "s", POSITIVE, needed=False), Column("tolerance", must=POSITIVE, needed=False),
     Column("dof", must=WHOLE, needed=False), Column("wall_s", "s", NOT_NEGATIVE, needed=False),
     Column("cpu_s", "s", NOT_NEGATIVE, needed=False),
@@ -153,14 +153,12 @@ class Sheet(NamedTuple):
 def sheet_of(folder: Folder, file: str, columns: Sequence[Column]) -> Sheet:
     """Return a table, without rows where it cannot be used."""
     text = folder.text(file)
-    if text is None:
-        return Sheet(file, [], [], [])
     numbered = [
         (line, row)
-        for line, row in enumerate(text.split("\n"), 1)
+        for line, row in enumerate((text or "").split("\n"), 1)
         if row.lstrip()[:1] not in ("", "#")
     ]
-    if folder.add_all(file, _wrong(numbered, columns)):
+    if text is None or folder.add_all(file, _wrong(numbered, columns)):
         return Sheet(file, [], [], [])
     known = {column.name: column for column in columns}
     (first, header), *rest = numbered
