@@ -73,8 +73,8 @@ class Load(Described, abstract=True):
 
     @property
     def leaves_plane(self) -> bool:
-        """Whether it moves the blade out of the plane of rotation."""
-        return False
+        """Whether it moves the blade out of the plane of rotation: unless told, with a lift."""
+        return type(self).lift is not Load.lift
 
     def lift(self, phase: FloatArray) -> FloatArray:
         """Return the force along the axis of rotation, (samples,)."""

@@ -43,6 +43,9 @@ from rotbeam_exu.runs.attributes import (
     motion_attributes,
     motion_of,
 )
+from rotbeam_exu.verification.cases import spin_up_case
+from rotbeam_exu.verification.entries import formulation_entry
+from rotbeam_exu.verification.verify import handed_in
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,6 +91,17 @@ class HalfTold(ObliqueForce):
     """One that does not tell what its other number is."""
 
     dimensions: ClassVar[dict[str, tuple[int, int, int]]] = {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Heave(Shake):
+    """A clamp that is shaken along the axis of rotation."""
+
+    def force(self, phase, angle, setting):
+        return 0j * phase
+
+    def lift(self, phase):
+        return self.amplitude * np.cos(phase)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,6 +205,7 @@ def test_all_numbers_of_a_load_have_their_units(beam):
     [
         (HalfTold(amplitude=1.0, along=1.0), TypeError, "force .* has along of unknown dimension"),
         (Moment(amplitude=1.0), TypeError, "acts on 'sections': let it be one of mass, length"),
+        (Heave(amplitude=1.0), ValueError, "in the plane of rotation, which Heave.* leaves"),
         (Gust(amplitude=1.0), ValueError, "goes by the angle of the clamp as well"),
     ],
 )
@@ -284,6 +299,24 @@ class Quick(SpinUp):
         return 2.0 * super().rate(t)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Sudden(HalfSine):
+    """A ramp that ends at another speed than it says."""
+
+    def _within(self, t, derivative):
+        return 0.9 * super()._within(t, derivative)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Torn(HalfSine):
+    """A ramp whose acceleration, or rate, is another's."""
+
+    wrong: int = 2
+
+    def _within(self, t, derivative):
+        return super()._within(t, derivative) * (0.5 if derivative == self.wrong else 1.0)
+
+
 @dataclass(frozen=True)
 class Listed(SpeedChange):
     """A ramp with a field that no file can hold."""
@@ -327,6 +360,21 @@ def test_what_is_not_known_is_refused_before_it_is_computed(beam, change, senten
         simulate(**given, elements=2, duration=2.5, step=1e-2)
 
 
+@pytest.mark.parametrize(
+    ("motion", "sentence"),
+    [
+        (Sudden(omega=4.0, ramp_time=2.0), "speeds from start to omega"),
+        (Torn(omega=4.0, ramp_time=2.0), "an acceleration that is the derivative of its rate"),
+        (Torn(omega=4.0, ramp_time=2.0, wrong=0), "a rate that is the derivative of its angle"),
+    ],
+)
+def test_a_motion_that_is_not_one_is_refused(beam, motion, sentence):
+    """An inertial frame goes by the angle alone, a turning one by all three."""
+    for solve in (lambda: simulate(beam, motion), lambda: residual_amplitude(beam, motion)):
+        with pytest.raises(ValueError, match=sentence):
+            solve()
+
+
 def test_what_a_file_tells_of_and_nobody_defined_is_refused():
     told = describe(MOTION)
     with pytest.raises(ValueError, match="'Unheard' is no known Motion: import the module that"):
@@ -365,3 +413,16 @@ def test_two_kinds_cannot_have_one_name():
 def test_blades_are_read_back(blade):
     assert beam_of(beam_attributes(blade)) == blade
     assert from_description(describe(blade), type(blade)) == blade
+
+
+def test_a_new_case_of_the_benchmark_is_handed_in_whole(beam):
+    blade = beam.with_point_mass(0.1, 4.0).with_setting_angle(0.3)
+    case = replace(
+        spin_up_case(blade.with_damping(Damping(external=0.05)), MOTION, 3.0),
+        loads=(TipForce(amplitude=0.5, frequency=3.0),),
+    )
+    run = handed_in(formulation_entry(Cable(), elements=4, step=4e-3), [case]).runs[-1]
+    exact = spin_up_response(case.blade, MOTION, run.time, tolerance=1e-3, loads=case.loads).q
+    assert run.elements == 8
+    # Eight cables at 8 ms; without the mass, the angle, drag or the force 0.05 or more.
+    assert run.q == pytest.approx(exact, abs=5e-3 * np.abs(exact).max())
