@@ -135,7 +135,7 @@ class SpeedChange(Motion, ABC, abstract=True):
 
     @cached_property
     def _flaw(self) -> str:
-        """What contradicts itself; nothing of a motion that is one."""
+        """Contradiction in itself, as what the motion must have; nothing of one that is whole."""
         edges = np.union1d(self.corners, np.arange(0.0, self.ramp_time, self.shortest_wave))
         x, weights = gauss_points(_POINTS)
         width = np.diff(edges)
