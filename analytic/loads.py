@@ -8,6 +8,7 @@ figures then know it.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Literal, Self
@@ -28,7 +29,8 @@ class Load(Described, abstract=True):
     Attributes
     ----------
     unit, symbol, called : str
-        Of the size: its unit in SI and the theory's letter; and the load in a sentence.
+        Of the size: its unit in SI and the theory's letter; and the load in a sentence, by the name
+        of its class unless told, never by that of a base.
     dimension : tuple of three int
         Powers of length, mass and time in the size.
     dimensions : mapping
@@ -50,6 +52,12 @@ class Load(Described, abstract=True):
     acts_on: ClassVar[Literal["mass", "length", "tip"] | None]
     varied: ClassVar[Literal["frequency", "speed"] | None] = None
     frequency: float | None = None
+
+    def __init_subclass__(cls, **rest: Any) -> None:
+        super().__init_subclass__(**rest)
+        words = re.sub("(?<=.)(?=[A-Z])", " ", cls.__name__).lower()
+        article = "an" if words[0] in "aeiou" else "a"
+        cls.called = vars(cls).get("called", f"{article} {words}")
 
     @property
     def size(self) -> float:
@@ -222,7 +230,6 @@ class TipForce(HarmonicLoad):
 
     unit: ClassVar[str] = "N"
     symbol: ClassVar[str] = "F"
-    called: ClassVar[str] = "a tip force"
     dimension: ClassVar[tuple[int, int, int]] = (1, 1, -2)
     acts_on: ClassVar[Literal["tip"]] = "tip"
 
@@ -241,7 +248,6 @@ class DistributedForce(HarmonicLoad):
 
     unit: ClassVar[str] = "N/m"
     symbol: ClassVar[str] = "p"
-    called: ClassVar[str] = "a distributed force"
     dimension: ClassVar[tuple[int, int, int]] = (0, 1, -2)
     acts_on: ClassVar[Literal["length"]] = "length"
 
