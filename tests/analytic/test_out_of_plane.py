@@ -10,7 +10,7 @@ import pytest
 from analytic import Beam, Blade, Ellipse, Rectangle, Section, Tube
 from analytic.description import describe, from_description
 from analytic.section import OutOfPlane
-from analytic.section_shapes import Gyration, SectionShape
+from analytic.section_shapes import Box, Gyration, SectionShape
 from rotbeam_exu.cli.options import SectionOptions
 
 BEAM = Beam.reference()
@@ -140,5 +140,9 @@ def test_a_new_shape_is_one_class():
     assert SectionOptions(section="diamond").of(UNIT) == blade
     with pytest.raises(ValueError, match="Diamond.*has I/A = .*side=0.003464 fits it"):
         UNIT.with_shape(Diamond(side=0.1))
+    # No square has both I and A of the strip, and I and A alone make no box.
+    for shape in (Diamond(side=0.1), Diamond(), Box(height=0.1, width=0.1, wall=0.01)):
+        with pytest.raises(ValueError, match="m² of this blade: take another shape"):
+            BEAM.with_shape(shape)
     with pytest.raises(TypeError, match="a SectionShape is needed, got 'Tube'"):
         UNIT.with_shape("Tube")

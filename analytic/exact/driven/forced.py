@@ -169,8 +169,8 @@ def forced_response(
         raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
     if load.leaves_plane:
         raise ValueError(
-            f"forced_response takes {load.called} in the plane of rotation: leave the tilt out, or "
-            "take spin_up_response"
+            f"forced_response takes loads in the plane of rotation, which {load!r} leaves: take "
+            "spin_up_response"
         )
     if load.frequency is not None:
         raise ValueError(
@@ -178,6 +178,12 @@ def forced_response(
             "leave it out of the load, and give it among the frequencies"
         )
     by_speed = load.varied == "speed"
+    start = np.zeros(1)
+    if not by_speed and not np.isfinite(unit.force(start, np.nan * start, 1.0)).all():
+        raise ValueError(
+            f"{load} goes by the angle of the clamp as well, so that no response is periodic: take "
+            "spin_up_response"
+        )
     if by_speed:
         if frequencies is not None:
             raise ValueError(
