@@ -12,7 +12,7 @@ from analytic import AnyBlade, SteadyRotation
 from analytic.description import describe, from_description
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
-from analytic.motion import Rotation, SpeedChange, require_ramp
+from analytic.motion import Rotation, SpeedChange
 
 from ..runs.attributes import (
     beam_attributes,
@@ -82,8 +82,6 @@ class RunCase:
             )
         _ = self.steps_and_sampling
         self.describe()  # refuses what no file can hold
-        if isinstance(self.spin_up, SpeedChange):
-            require_ramp(self.spin_up)
 
     @classmethod
     def described(cls, attrs: Mapping[Any, Any]) -> RunCase:

@@ -302,24 +302,6 @@ class Quick(SpinUp):
         return 2.0 * super().rate(t)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sudden(HalfSine):
-    """A ramp that ends at another speed than it says."""
-
-    def _within(self, t, derivative):
-        return 0.9 * super()._within(t, derivative)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Torn(HalfSine):
-    """A ramp whose acceleration, or rate, is another's."""
-
-    wrong: int = 2
-
-    def _within(self, t, derivative):
-        return super()._within(t, derivative) * (0.5 if derivative == self.wrong else 1.0)
-
-
 @dataclass(frozen=True)
 class Listed(SpeedChange):
     """A ramp with a field that no file can hold."""
@@ -361,21 +343,6 @@ def test_what_is_not_known_is_refused_before_it_is_computed(beam, change, senten
     given = {"beam": beam, "spin_up": MOTION, **change}
     with pytest.raises(TypeError, match=sentence):
         simulate(**given, elements=2, duration=2.5, step=1e-2)
-
-
-@pytest.mark.parametrize(
-    ("motion", "sentence"),
-    [
-        (Sudden(omega=4.0, ramp_time=2.0), "speeds from start to omega"),
-        (Torn(omega=4.0, ramp_time=2.0), "an acceleration that is the derivative of its rate"),
-        (Torn(omega=4.0, ramp_time=2.0, wrong=0), "a rate that is the derivative of its angle"),
-    ],
-)
-def test_a_motion_that_is_not_one_is_refused(beam, motion, sentence):
-    """An inertial frame goes by the angle alone, a turning one by all three."""
-    for solve in (lambda: simulate(beam, motion), lambda: residual_amplitude(beam, motion)):
-        with pytest.raises(ValueError, match=sentence):
-            solve()
 
 
 def test_what_a_file_tells_of_and_nobody_defined_is_refused():
