@@ -17,11 +17,10 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import FloatArray, Profile
+from .arrays import FloatArray, Profile, evaluated, in_units
 from .description import Described
 from .input_checks import finite_array, finite_number, not_negative, positive, shown
 from .parts import STRAIGHT, UNDAMPED, Damping, Line, Offset, PointMass
-from .profiles import evaluated, in_units
 from .section import OutOfPlane, Section
 from .section_shapes import Gyration, SectionShape
 from .shape_functions import shape_functions
@@ -134,16 +133,12 @@ class Variations(Described, abstract=True):
         return replace(self.blade, damping=damping)
 
     def with_section_out_of_plane(
-        self,
-        bending_ratio: float,
-        torsion_ratio: float | None = None,
-        polar_inertia: float | None = None,
+        self, bending_ratio: float, torsion_ratio: float | None = None
     ) -> Blade:
         """Return the blade with these of `OutOfPlane`: EI out of the plane and GJ over its EI."""
-        given = OutOfPlane(
-            bending_ratio=bending_ratio, torsion_ratio=torsion_ratio, polar_inertia=polar_inertia
+        return self._with_out_of_plane(
+            OutOfPlane(bending_ratio=bending_ratio, torsion_ratio=torsion_ratio)
         )
-        return self._with_out_of_plane(given)
 
     def with_shape(self, shape: SectionShape) -> Blade:
         """Return the blade with a shape as its section, refusing one with another I/A or A.

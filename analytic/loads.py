@@ -8,7 +8,8 @@ figures then know it.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Literal, Self
 
@@ -19,6 +20,8 @@ from .description import Described, kinds_of
 from .input_checks import finite_number, not_negative
 from .motion import Rippled, Rotation
 
+_CARRIERS = ("mass", "length", "tip")
+
 
 class Load(Described, abstract=True):
     """Force or motion that acts on a blade; a frozen dataclass whose first field is its size.
@@ -26,9 +29,12 @@ class Load(Described, abstract=True):
     Attributes
     ----------
     unit, symbol, called : str
-        Of the size: its unit in SI and the theory's letter; and the load in a sentence.
+        Of the size: its unit in SI and the theory's letter; and the load in a sentence, by the name
+        of its class unless told, never by that of a base.
     dimension : tuple of three int
         Powers of length, mass and time in the size.
+    dimensions : mapping
+        The same of other numbers among the fields, by name; zeros of an angle.
     acts_on : {"mass", "length", "tip"} or None
         Carrier of the force, which is per unit of it; None for a load that moves the clamp.
     frequency : float or None
@@ -42,9 +48,16 @@ class Load(Described, abstract=True):
     symbol: ClassVar[str]
     called: ClassVar[str]
     dimension: ClassVar[tuple[int, int, int]]
+    dimensions: ClassVar[Mapping[str, tuple[int, int, int]]] = {}
     acts_on: ClassVar[Literal["mass", "length", "tip"] | None]
     varied: ClassVar[Literal["frequency", "speed"] | None] = None
     frequency: float | None = None
+
+    def __init_subclass__(cls, **rest: Any) -> None:
+        super().__init_subclass__(**rest)
+        words = re.sub("(?<=.)(?=[A-Z])", " ", cls.__name__).lower()
+        article = "an" if words[0] in "aeiou" else "a"
+        cls.called = vars(cls).get("called", f"{article} {words}")
 
     @property
     def size(self) -> float:
@@ -68,8 +81,8 @@ class Load(Described, abstract=True):
 
     @property
     def leaves_plane(self) -> bool:
-        """Whether it moves the blade out of the plane of rotation."""
-        return False
+        """Whether it moves the blade out of the plane of rotation: unless told, with a lift."""
+        return type(self).lift is not Load.lift
 
     def lift(self, phase: FloatArray) -> FloatArray:
         """Return the force along the axis of rotation, (samples,)."""
@@ -91,14 +104,24 @@ class Load(Described, abstract=True):
         return rotation
 
     def in_units(self, length: float, mass: float, time: float) -> Self:
-        """Return the load in units of length [m], mass [kg] and time [s]."""
-        powers = zip((length, mass, time), self.dimension, strict=True)
-        size = self.size
-        for unit, power in powers:
-            size /= unit**power
-        scaled = {self._of_size(): size}
-        if self.frequency is not None:
-            scaled["frequency"] = self.frequency * time
+        """Return the load in units of length [m], mass [kg] and time [s].
+
+        TypeError of a number whose dimension the class does not tell.
+        """
+        known, scaled = {self._of_size(): self.dimension, **self.dimensions}, {}
+        for name in (one.name for one in fields(self)):  # type: ignore[arg-type]
+            value = getattr(self, name)
+            if name == "frequency":
+                scaled[name] = None if value is None else value * time
+            elif name in known:
+                for unit, power in zip((length, mass, time), known[name], strict=True):
+                    value /= unit**power
+                scaled[name] = value
+            elif not isinstance(value, str | None):
+                raise TypeError(
+                    f"{self} has {name} of unknown dimension: let {type(self).__name__} have "
+                    f"dimensions = {{{name!r}: powers of length, mass and time}}, 0 of an angle"
+                )
         return replace(self, **scaled)  # type: ignore[type-var]
 
     def times(self, factor: float) -> Self:
@@ -207,7 +230,6 @@ class TipForce(HarmonicLoad):
 
     unit: ClassVar[str] = "N"
     symbol: ClassVar[str] = "F"
-    called: ClassVar[str] = "a tip force"
     dimension: ClassVar[tuple[int, int, int]] = (1, 1, -2)
     acts_on: ClassVar[Literal["tip"]] = "tip"
 
@@ -226,7 +248,6 @@ class DistributedForce(HarmonicLoad):
 
     unit: ClassVar[str] = "N/m"
     symbol: ClassVar[str] = "p"
-    called: ClassVar[str] = "a distributed force"
     dimension: ClassVar[tuple[int, int, int]] = (0, 1, -2)
     acts_on: ClassVar[Literal["length"]] = "length"
 
@@ -263,6 +284,7 @@ class Gravity(Load):
     symbol: ClassVar[str] = "g"
     called: ClassVar[str] = "gravity"
     dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
+    dimensions: ClassVar[Mapping[str, tuple[int, int, int]]] = {"tilt": (0, 0, 0)}
     acts_on: ClassVar[Literal["mass"]] = "mass"
     varied: ClassVar[Literal["frequency", "speed"] | None] = "speed"
 
@@ -289,10 +311,14 @@ class Gravity(Load):
 
 
 def require_load(load: object) -> None:
-    """Refuse a value that is no load."""
+    """Refuse a value that is no load, and a load that acts on what blades do not have."""
     if not isinstance(load, Load):
         *others, last = kinds_of(Load)
         raise TypeError(f"a load must be a {', '.join(others)} or {last}, got {load!r}")
+    if load.acts_on not in (*_CARRIERS, None):
+        raise TypeError(
+            f"{load} acts on {load.acts_on!r}: let it be one of {', '.join(_CARRIERS)}, or None"
+        )
 
 
 def loads_in_time(loads: Any) -> tuple[Load, ...]:

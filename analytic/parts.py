@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from .arrays import Profile
+from .arrays import Profile, in_units
 from .description import Described
 from .input_checks import checked_profile, finite_number, not_negative, positive, whole_number
-from .profiles import in_units
 
 Offset = tuple[float, float]
 """(c2, c3): along the chord, to the leading edge, and along the thickness, of the section."""

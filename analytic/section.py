@@ -12,17 +12,18 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from .arrays import FloatArray, Profile
+from .arrays import FloatArray, Profile, evaluated, in_units, stations, times
 from .description import Described
-from .input_checks import checked_profile, not_negative, positive, warn_if_giga
-from .profiles import evaluated, in_units, stations, times
+from .input_checks import checked_profile, positive, warn_if_giga
 
 
 @dataclass(frozen=True, kw_only=True)
 class OutOfPlane(Described):
     """Stiffness and inertia of a slice out of the plane, over stiffness and inertia in it.
 
-    The ratios hold all along the blade.
+    The ratios hold all along the blade. Inertia against rotation has the same ratio r: against
+    twist it is 1 + r times the `rotary_inertia` of the section or, where none is told, of a
+    homogeneous one.
 
     Parameters
     ----------
@@ -30,11 +31,6 @@ class OutOfPlane(Described):
         r, the bending stiffness out of the plane over the EI in it.
     torsion_ratio : float, optional
         g = GJ/EI; infinite if the section does not twist, None if unknown.
-    polar_inertia : float, optional
-        ρI_p at the root [kg m]; along the blade it goes as m EI/EA. None means a homogeneous
-        section, which has m (1 + r) EI/EA. Its parts in the plane and out of it have the ratio 1 to
-        r; their difference stiffens the twist in rotation. Zero makes the twist follow without
-        inertia.
 
     Examples
     --------
@@ -46,15 +42,12 @@ class OutOfPlane(Described):
 
     bending_ratio: float
     torsion_ratio: float | None = None
-    polar_inertia: float | None = None
 
     def __post_init__(self) -> None:
         self._keep(bending_ratio=positive("bending_ratio", self.bending_ratio))
         rigid = isinstance(self.torsion_ratio, float) and self.torsion_ratio == math.inf
         if self.torsion_ratio is not None and not rigid:
             self._keep(torsion_ratio=positive("torsion_ratio", self.torsion_ratio))
-        if self.polar_inertia is not None:
-            self._keep(polar_inertia=not_negative("polar_inertia", self.polar_inertia, "kg m"))
 
 
 _UNITS = {
@@ -144,10 +137,7 @@ class Section(Described):
         scaled: dict[str, Any] = {
             name: in_units(profile, length, per[name]) for name, profile in self.profiles().items()
         }
-        out = self.out_of_plane
-        if out is not None and out.polar_inertia is not None:
-            out = replace(out, polar_inertia=out.polar_inertia / per["rotary_inertia"])
-        return Section(**scaled, out_of_plane=out)
+        return Section(**scaled, out_of_plane=self.out_of_plane)
 
     def require_along(self, length: float) -> None:
         """Refuse a section that vanishes on a blade of that length [m], or is given for another."""

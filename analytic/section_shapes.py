@@ -68,22 +68,26 @@ class SectionShape(Described, ABC, abstract=True):
     def out_of_plane(self, own: Gyration) -> OutOfPlane:
         """Return the stiffness out of the plane, refusing what contradicts the blade's `own`."""
         lengths = self._fitting(own) | self._given
-        has = self._gyration(lengths)
-        pairs = [("I/A", has.squared, own.squared)]
-        if own.area is not None and has.area is not None:
-            pairs.append(("A", has.area, own.area))
-        for what, found, wanted in pairs:
-            off = abs(found / wanted - 1.0)
-            if off > _SAME:
-                fitting = type(self)()._fitting(own).items()
-                raise ValueError(
-                    f"{self!r} has {what} = {found:.4g} m², {100.0 * off:.3g} % from the "
-                    f"{wanted:.4g} m² of this blade: "
-                    f"{', '.join(f'{name}={length:.4g}' for name, length in fitting)} fits it"
-                )
+        if difference := self._difference(lengths, own):
+            fitting = type(self)()._fitting(own)
+            remedy = f"{', '.join(f'{name}={x:.4g}' for name, x in fitting.items())} fits it"
+            if not fitting or (own.area and self._difference(fitting, own)):
+                remedy = "take another shape, or with_section_out_of_plane"
+            raise ValueError(f"{self!r} has {difference} of this blade: {remedy}")
         across, torsion = self._ratios(lengths)
         shear = 0.5 / (1.0 + self.poisson_ratio)
         return OutOfPlane(bending_ratio=across, torsion_ratio=shear * torsion)
+
+    def _difference(self, lengths: Mapping[str, float], own: Gyration) -> str:
+        """Return how the lengths contradict a blade's `own`, empty if they do not."""
+        has = self._gyration(lengths)
+        for what, found, wanted in (
+            ("I/A", has.squared, own.squared), ("A", has.area, own.area)
+        ):  # fmt: skip
+            off = abs(found / wanted - 1.0) if found and wanted else 0.0
+            if off > _SAME:
+                return f"{what} = {found:.4g} m², {100.0 * off:.3g} % from the {wanted:.4g} m²"
+        return ""
 
     @abstractmethod
     def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:

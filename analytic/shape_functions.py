@@ -1,4 +1,4 @@
-"""Shape functions of a blade: its strains under loads that are mass times polynomials.
+"""Shape functions of a blade: its strains under loads that are mass times polynomials; its modes.
 
 Where the section has a kink or a step, the curvature M/EI and the elongation N/EA have one too, and
 M'' and N' as the mass has; the acceleration is smoother. So M'' and N' are the mass per length
@@ -12,12 +12,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from .arrays import FloatArray
-from .profiles import evaluated, slope_of
+from .arrays import FloatArray, evaluated, slope_of
+from .lazily import linalg
 from .quadrature import BasisValues, Grid, polynomials_on
 from .unit_blade import UnitBlade
 
@@ -127,3 +127,73 @@ def shape_functions(
     """Return at least `count` functions, as many on every panel, and three of each at least."""
     a_panel = max(_FEWEST if blade.panel_count > 1 else 1, math.ceil(count / blade.panel_count))
     return ShapeFunctions(blade, a_panel, stiffness)
+
+
+class FirstMode(NamedTuple):
+    """The first mode, 1 at the tip, by its coefficients (n,), w̄_n, and the next two w̄_j."""
+
+    coefficients: FloatArray
+    w_n: float
+    others: tuple[float, float]
+
+
+class BladeFunctions:
+    """Functions φ_k (n) of a blade's deflection, and what integrals of the reduced models take.
+
+    Without dimensions. Measures are dm at the masses, dj at what turns, point masses included, and
+    EI dx at the points. Slopes are integrated from Gauss points inside.
+    """
+
+    def __init__(self, blade: UnitBlade, count: int) -> None:
+        self.blade = blade
+        self.across = across = shape_functions(blade, count)
+        points = 2 * (across.a_panel + 4)
+        x, dx = blade.quadrature(points)
+        self.bent = dx * evaluated(blade.bending, x)  # EI dx, (points,)
+        self.at, self.dm = blade.inertia(points)  # (masses,)
+        turning_at, dj = blade.turning(points)
+        self.dj, inner = dj, blade.grid(points, 4)  # (turning,)
+        self.weights = inner.weights  # (inner,)
+        # Values inside to integrals from the clamp to the masses: products of two slopes.
+        self.to_masses = inner.integral(self.at)
+
+        self.deflection = across.twice(self.at)
+        self.slope, self.slope_turning, self.slope_bent = (
+            across.once(places) for places in (inner.points, turning_at, x)
+        )
+        self.curvature = across.strain(x)
+        self.tip = across.twice(np.ones(1))[0]
+        lever = (blade.hub + self.at) * self.dm
+        self.tension = lever @ self.to_masses  # ∫N f dx = w̄² tension @ f
+        moved = self.deflection.T @ (self.dm[:, None] * self.deflection)
+        self.turning = self.slope_turning.T @ (dj[:, None] * self.slope_turning)
+        self.mass = moved + self.turning
+        self.bending = self.curvature.T @ (self.bent[:, None] * self.curvature)
+        stiffening = self.slope.T @ (self.tension[:, None] * self.slope)
+        self.centrifugal = stiffening - blade.setting**2 * moved  # K = bending + w̄² centrifugal
+        # ∫(δ + x) φ dm + ∫φ' dj: over c; the Euler force -θ̈ does work on it.
+        self.euler = lever @ self.deflection + dj @ self.slope_turning
+
+    def stiffness(self, w_bar: float) -> FloatArray:
+        """Return K (n, n) at w̄: bending, tension, and the softening of the plane of rotation."""
+        return np.asarray(self.bending + w_bar**2 * self.centrifugal)
+
+    def modes(self, w_bar: float, count: int) -> tuple[FloatArray, FloatArray]:
+        """Return the lowest w̄_j (count,) at w̄ and the modes (n, count), of unit mass, tip up."""
+        # M is nearly singular and K is not: the reciprocal problem keeps the low modes' digits.
+        reciprocal, vectors = linalg.eigh(self.mass, self.stiffness(w_bar))
+        frequencies = 1.0 / np.sqrt(reciprocal[: -count - 1 : -1])
+        lowest = vectors[:, : -count - 1 : -1]
+        return frequencies, lowest * np.sign(self.tip @ lowest) * frequencies
+
+    def first_mode(self, w_bar: float) -> FirstMode:
+        """Return the first mode at w̄."""
+        frequencies, modes = self.modes(w_bar, 3)
+        w_n, second, third = frequencies.tolist()
+        return FirstMode(modes[:, 0] / (self.tip @ modes[:, 0]), w_n, (second, third))
+
+
+@lru_cache(maxsize=16)
+def blade_functions(blade: UnitBlade, count: int) -> BladeFunctions:
+    """Return at least `count` functions of the blade."""
+    return BladeFunctions(blade, count)

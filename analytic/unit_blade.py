@@ -9,8 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from .arrays import FloatArray, Profile
-from .profiles import evaluated, stations
+from .arrays import FloatArray, Profile, evaluated, stations
 from .quadrature import Grid
 
 _SAME = 1e-9  # stations and masses that are no farther apart

@@ -162,12 +162,13 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
     StabilityLimit: (
         {
             "limit": _own("amplitude", (), "amplitude |q|/L above which planar orbits leave"),
+            "limit_growth": _own("growth", (), "growth exponent that counts [1/rad]"),
             "limit_converged": _own("converged", (), "whether the limit is settled"),
             "tongue_low": _each("tongue", "low", "amplitude |q|/L, from"),
             "tongue_high": _each("tongue", "high", "amplitude |q|/L, to"),
             "tongue_growth": _each("tongue", "growth", "growth exponent [1/rad]"),
         },
-        "blade", ("omega", "mode", "growth"),
+        "blade", ("omega", "mode"),
     ),
     Campbell: (
         {

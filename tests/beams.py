@@ -1,5 +1,7 @@
 """Beams and blades that tests in several folders share."""
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.polynomial import Legendre
 from scipy.sparse import coo_array
@@ -31,6 +33,12 @@ def unit_beam(slenderness):
     return Beam.from_stiffness(
         length=1.0, axial_stiffness=1.0 / slenderness, bending_stiffness=1.0, mass_per_length=1.0
     )
+
+
+def told(blade, inertia, *out_of_plane):
+    """A blade whose section tells its rotary inertia in the plane, and these out of it."""
+    section = replace(blade.blade.section, rotary_inertia=inertia)
+    return replace(blade.blade, section=section).with_section_out_of_plane(*out_of_plane)
 
 
 def clamped_basis(count, x, order=2):

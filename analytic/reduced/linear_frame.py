@@ -19,10 +19,10 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..beam import AnyBlade, require_undamped, warn_if_rpm
-from ..blade_functions import blade_functions
 from ..input_checks import flag, points_of_beam, times_from_rest
 from ..lazily import integrate
 from ..motion import SpeedChange, require_ramp
+from ..shape_functions import blade_functions
 from ..threads import one_thread
 
 _FUNCTIONS, _MODES = 28, 5
@@ -35,19 +35,10 @@ class LinearResponse:
 
     Attributes
     ----------
-    beam : Beam or Blade
-    spin_up : SpinUp, FourierRamp or SpeedTable
-    foreshortening : bool
-        Whether the model has the term that stiffens.
-    time : ndarray (times,)
-        Times [s].
-    q : ndarray (times,)
-        Deflection of the tip across the turning line of the clamp, Eq. 16 [m].
-    points : ndarray (points,)
-        Material points asked for [m].
-    axis : ndarray (times, points, 2)
-        Their positions in the frame that turns with the clamp [m]. A linear
-        model moves them across only: it grows longer as it bends.
+    beam, spin_up, foreshortening : as given
+    time, q, points, axis : ndarray
+        As of `SpinUpResponse`. A linear model moves the points across only: it grows longer as it
+        bends.
     """
 
     beam: AnyBlade
@@ -76,14 +67,10 @@ def linear_response(
 
     Parameters
     ----------
-    beam : Beam or Blade
-    spin_up : SpinUp, FourierRamp or SpeedTable
-    times : array_like
-        Times of the response [s], ascending, not before 0.
+    beam, spin_up, times, points
+        As for `spin_up_response`.
     foreshortening : bool
         Give the model the term that it lacks.
-    points : array_like
-        Material points [m], from 0 to L, whose positions are wanted as well, to draw the blade.
 
     Raises
     ------

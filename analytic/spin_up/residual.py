@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -21,7 +21,6 @@ from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, require_planar
-from ..blade_functions import blade_functions
 from ..exact.driven.response import spin_up_response
 from ..exact.linear.modes import linear_modes
 from ..input_checks import finite_array, flag, positive
@@ -29,6 +28,7 @@ from ..lazily import interpolate
 from ..motion import SpeedChange, require_ramp
 from ..quadrature import gauss_points, integrals_from_clamp
 from ..reduced.any_blade import blade_oscillator
+from ..shape_functions import blade_functions
 from ..threads import one_thread
 from ..unit_blade import UnitBlade
 
@@ -109,15 +109,6 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
         points = 2 * points - 1
 
 
-@overload
-def residual_amplitude(
-    beam: AnyBlade, spin_up: SpeedChange, *,
-    corrected: bool = False, exact: bool = False, tolerance: float = 1e-6,
-) -> float: ...  # fmt: skip
-@overload
-def residual_amplitude(
-    beam: AnyBlade, spin_up: SpeedChange, ramp_times: ArrayLike, *, corrected: bool = False
-) -> FloatArray: ...
 @one_thread
 def residual_amplitude(
     beam: AnyBlade,
@@ -127,7 +118,7 @@ def residual_amplitude(
     corrected: bool = False,
     exact: bool = False,
     tolerance: float = 1e-6,
-) -> float | FloatArray:
+) -> Any:
     """Return the amplitude over L of the tip's first mode after a change of the speed.
 
     Linear theory of the inextensible blade, adiabatic in the speed. Against the exact transient
@@ -172,8 +163,7 @@ def residual_amplitude(
                 "ramp_times and corrected"
             )
         return _exact(beam, spin_up, tolerance)
-    times = np.asarray(spin_up.ramp_time if ramp_times is None else ramp_times)
-    times = finite_array("ramp_times", times, "s")
+    times = finite_array("ramp_times", spin_up.ramp_time if ramp_times is None else ramp_times, "s")
     for T in times.ravel()[times.ravel() <= 0.0]:
         positive("ramp_times", T, "s")
     modes = modes_for(beam, spin_up, 1)

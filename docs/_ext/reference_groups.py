@@ -39,8 +39,7 @@ GROUPS = (
         "Small vibration about steady rotation.",
         analytic="linear_modes campbell damping_ratios steady_state",
         analytic__exact__linear__modes="LinearModes",
-        analytic__exact__linear__campbell="Campbell",
-        analytic__exact__linear__tracking="Crossing",
+        analytic__exact__linear__campbell="Campbell Crossing",
         analytic__exact__space__modes="SpaceModes",
     ),
     _group(

@@ -97,7 +97,7 @@ def _families(beam: AnyBlade) -> list[Plane]:
     if known is None or beam.unit.setting != 1.0:
         return ["lag"]
     twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)
-    inert = 0.0 not in (known.polar_inertia, beam.section.rotary_inertia)
+    inert = beam.section.rotary_inertia != 0.0
     return ["lag", "flap", "torsion"] if twists and inert else ["lag", "flap"]
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import analytic
-from analytic.exact.plane.growth import least_growth
 from analytic.input_checks import not_negative, whole_number
 
 from ..files.results import parts
@@ -71,14 +70,13 @@ def stability(
     amplitudes = sorted(set(amplitude))
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
-    growth = least_growth(blade, damping_ratio)
-    inputs |= {"damping_ratio": damping_ratio, "growth": growth}
+    inputs |= {"damping_ratio": damping_ratio}
 
     def computed() -> tuple[PlanarStability, StabilityLimit, xr.Dataset]:
         with bar("growth out of the plane"):
             found = analytic.planar_stability(blade, omega, amplitudes, mode, damping=damping_ratio)
             limit = analytic.stability_limit(
-                blade, omega, mode, damping=damping_ratio, growth=growth, largest=amplitudes[-1]
+                blade, omega, mode, damping=damping_ratio, largest=amplitudes[-1]
             )
         return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 

@@ -9,8 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from analytic import AnyBlade, PointMass
-from analytic.arrays import FloatArray
-from analytic.profiles import evaluated
+from analytic.arrays import FloatArray, evaluated
 from analytic.quadrature import gauss_points
 
 

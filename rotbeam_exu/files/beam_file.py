@@ -53,8 +53,8 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     axial_stiffness, bending_stiffness and mass_per_length. [blade] gives length and, where they are
     not zero, hub_radius [m] and setting_angle [rad]; [blade.section] gives axial_stiffness,
     bending_stiffness, mass_per_length and rotary_inertia, each a number, coefficients of x/L, or
-    stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known, torsion_ratio
-    and polar_inertia [kg m], or [beam.shape] and [blade.section.shape] the kind of a shape and its
+    stations [x, value]; [blade.section.out_of_plane] bending_ratio and, if known,
+    torsion_ratio, or [beam.shape] and [blade.section.shape] the kind of a shape and its
     lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
     [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
     [blade.stations], in place of length and section, the keywords of `Blade.from_stations` or of

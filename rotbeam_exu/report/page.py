@@ -18,7 +18,6 @@ from ..verification.cases import CASES, VERSION
 from ..verification.convergence import Order
 from ..verification.judgement import THRESHOLDS
 from ..verification.outcomes import Finding, Outcome
-from ..verification.submission import Run
 from .document import Record, document, versions
 
 TITLE = "rotbeam judgement"
@@ -63,7 +62,12 @@ def report_page(record: Record) -> str:
     environment.filters |= {"number": _number, "mark": _mark, "picture": _picture}
     environment.tests["finite"] = math.isfinite
     template = resources.files(__package__).joinpath("template.html").read_text(encoding="utf-8")
-    text = json.dumps(document(record), indent=1, ensure_ascii=False)
+    figures: dict[str, list[tuple[str, str]]] = {}
+    if _DRAWS:
+        # matplotlib takes longer to import than a judgement without a report.
+        from ..figures.judgement import judged_figures  # noqa: PLC0415
+
+        figures = {name: list(judged_figures(name, found)) for name in found.findings}
     return environment.from_string(template).render(
         title=f"{TITLE}: {record.name}",
         record=record,
@@ -79,12 +83,12 @@ def report_page(record: Record) -> str:
             name for name in THRESHOLDS if any(name in of for of in found.findings.values())
         ],
         draws=_DRAWS,
-        figures={name: _figures(name, record) if _DRAWS else [] for name in found.findings},
+        figures=figures,
         runs=_runs(record),
         zip=zip,
         bibtex=BIBTEX,
         latex=latex_table(record),
-        json=text,
+        json=json.dumps(document(record), indent=1, ensure_ascii=False),
     )
 
 
@@ -105,13 +109,6 @@ def _mark(outcome: Outcome | Finding, words: str = "") -> Markup:
 
 def _told(value: float) -> str:
     return f"{value:.3g}" if math.isfinite(value) else "–"
-
-
-def _figures(name: str, record: Record) -> list[tuple[str, str]]:
-    # matplotlib takes longer to import than a judgement without a report.
-    from ..figures.judgement import judged_figures  # noqa: PLC0415
-
-    return list(judged_figures(name, record.judgement))
 
 
 def _picture(drawing: str, caption: str) -> Markup:
@@ -137,13 +134,9 @@ def _runs(record: Record) -> dict[str, list[str]]:
         "unknowns": [str(run.dof or "–") for run in runs],
         "wall [s]": [_told(run.wall) for run in runs],
         "CPU [s]": [_told(run.cpu) for run in runs],
-        "what happened": [_happened(run) for run in runs],
+        "what happened": [f"failed: {run.failure}" if run.failure else run.remark for run in runs],
     }
     return {name: of for name, of in columns.items() if set(of) - {"", "–"}}
-
-
-def _happened(run: Run) -> str:
-    return f"failed: {run.failure}" if run.failure else run.remark
 
 
 def latex_table(record: Record) -> str:
@@ -155,11 +148,16 @@ def latex_table(record: Record) -> str:
     rows = []
     for name, findings in found.findings.items():
         first = next(iter(findings.values()))
-        orders = first.runs.orders if first.runs else {}
-        cells = (
-            _escaped(name), str(found.outcome_of(name)), _in_latex(abs(first.difference)),
-            _limit(first), _order(orders.get("mesh")), _order(orders.get("step")),
-        )  # fmt: skip
+        runs, limit = first.runs, "--"
+        if runs and math.isfinite(runs.limit):
+            limit = f"{_in_latex(runs.limit)} $\\pm$ {_in_latex(runs.bar)}"
+        known = [runs.orders.get(part, Order()) if runs else Order() for part in ("mesh", "step")]
+        orders = [
+            "--" if math.isnan(one.value) else f"${one.value:.1f} \\pm {one.bar:.1f}$"
+            for one in known
+        ]
+        outcome, finest = str(found.outcome_of(name)), _in_latex(abs(first.difference))
+        cells = _escaped(name), outcome, finest, limit, *orders
         rows.append(f"    {' & '.join(cells)} \\\\\n")
     return (
         "\\begin{table}\n"
@@ -169,18 +167,6 @@ def latex_table(record: Record) -> str:
         "    Case & Outcome & Finest run & Limit $-$ reference & Order, mesh & Order, step \\\\\n"
         f"    \\midrule\n{''.join(rows)}    \\bottomrule\n  \\end{{tabular}}\n\\end{{table}}\n"
     )
-
-
-def _limit(found: Finding) -> str:
-    if found.runs is None or not math.isfinite(found.runs.limit):
-        return "--"
-    return f"{_in_latex(found.runs.limit)} $\\pm$ {_in_latex(found.runs.bar)}"
-
-
-def _order(order: Order | None) -> str:
-    if order is None or math.isnan(order.value):
-        return "--"
-    return f"${order.value:.1f} \\pm {order.bar:.1f}$"
 
 
 def _in_latex(value: float) -> str:

@@ -22,7 +22,7 @@ STEPS_PER_PERIOD = 20
 """Steps in a period of ω_n, at least: with fewer the oscillation is the integrator's own."""
 
 STEPS_PER_RAMP = 20
-"""Steps in a ramp, at least: fewer do not see Eq. 1, and a ramp within one or two not at all."""
+"""Steps in a ramp, at least: fewer do not see it, and a ramp within one or two not at all."""
 
 LEAST_SLENDERNESS = 1e-11
 """μ below which the round-off of |r'| - 1 spoils the axial force by more than 1e-5 of it."""
@@ -82,7 +82,7 @@ def checked_steps(
     if 0.0 < ramp_time < (STEPS_PER_RAMP - 1e-9) * step:
         raise ValueError(
             f"ramp_time {ramp_time:g} s holds {ramp_time / step:.3g} steps of {step:g} s, too few "
-            f"to follow Eq. 1: take a step of {ramp_time / STEPS_PER_RAMP:.3g} s or less"
+            f"to follow it: take a step of {ramp_time / STEPS_PER_RAMP:.3g} s or less"
         )
     return steps, sampling(beam, omega, steps, step, driven)
 

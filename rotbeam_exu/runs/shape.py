@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from analytic.arrays import FloatArray
+from analytic.arrays import FloatArray, evaluated
 from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.exact.beam.state import SectionLoads
 from analytic.exact.space.unit import space_unit
 from analytic.input_checks import not_negative
-from analytic.profiles import evaluated
 from analytic.theory import BERNOULLI_EULER
 
 from ..labels import dataset

@@ -9,6 +9,8 @@ from enum import StrEnum
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from analytic import (
     AnyBlade,
     Beam,
@@ -106,6 +108,16 @@ class Case:
     in_space: bool = False
     theories: tuple[Theory, ...] = (BERNOULLI_EULER,)
 
+    def __post_init__(self) -> None:
+        """Refuse a load that the reference would leave out."""
+        steady = self.asked is Asked.STEADY
+        for load in () if self.is_spun_up else self.loads:
+            if not (steady and _is_weight(load)):
+                raise ValueError(
+                    f"the reference of case {self.name}, {self.asked}, knows no {load!r}: "
+                    + ("weight along the axis of rotation alone" if steady else "take a spin-up")
+                )
+
     @property
     def columns(self) -> tuple[str, ...]:
         """Columns of its histories besides the time."""
@@ -162,6 +174,13 @@ class Case:
     def whole_duration(self, step: float) -> float:
         """Return the duration, or a little more that is a whole number of steps [s]."""
         return math.ceil(self.duration / step * (1.0 - 1e-12)) * step
+
+
+def _is_weight(load: Load) -> bool:
+    """Whether a load is a steady weight along the axis of rotation."""
+    in_plane = load.force(np.zeros(1), np.ones(1), 1.0)
+    small = float(np.abs(in_plane).max()) < 1e-12 * abs(load.size)
+    return small and load.acts_on == "mass" and not load.frequency
 
 
 _QUANTITIES = {

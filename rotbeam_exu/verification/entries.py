@@ -18,6 +18,7 @@ from ..fem.elements import (
     Substructures,
     require_modeled,
 )
+from ..fem.lazily import Frame
 from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
@@ -47,30 +48,34 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         if getattr(model, field.name) != field.default
     ]
 
-    def require(blade: AnyBlade) -> None:
+    def frame_of(blade: AnyBlade) -> Frame:
+        """Return the frame in which the element takes the blade; refuse one that it does not."""
+        turns = model.setting(blade) == 1.0 or not model.constant_mass
+        frame: Frame = "inertial" if turns else "rotating"
         try:
-            require_modeled(blade, model)
+            require_modeled(blade, model, frame)
         except ValueError as error:
             raise NotImplementedError(str(error)) from error
+        return frame
 
     def simulated(case: Case, *, elements: int, step: float) -> xr.Dataset:
-        require(case.blade)
+        frame = frame_of(case.blade)
         if not (case.is_spun_up or model.starts_in_motion):
             raise NotImplementedError(f"{model.name} does not start on an orbit")
         found = simulate(
             case.blade, case.rotation, element=model, elements=elements, step=step,
             duration=case.whole_duration(step), loads=case.loads,
-            initial_state=case.start,
+            initial_state=case.start, frame=frame,
         )  # fmt: skip
         return found.rename(q="lag", w="flap") if case.in_space else found
 
     def lowest(case: Case, omega: float, elements: int) -> FloatArray:
-        require(case.blade)
+        frame_of(case.blade)
         found = Linearization.of(case.blade, omega, model, elements)
         return np.asarray(found.frequencies(case.count))
 
     def steady_tip(case: Case, omega: float, elements: int) -> FloatArray:
-        require(case.blade)
+        frame_of(case.blade)
         found = Linearization.of(case.blade, omega, model, elements, weight=case.loads)
         return np.array([*(case.blade.length * found.tip[1:]), found.twist])
 

@@ -9,15 +9,17 @@ import hashlib
 import json
 import os
 from collections.abc import Sequence
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import Gravity
+from analytic import Blade, Damping, Gravity, PointMass, Section, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_array
+from analytic.motion import Motion
 
 from ..files.results import whole_file
 from .cases import CASES, VERSION, Asked, Case
@@ -160,11 +162,14 @@ UNITS = {
 
 
 def row_of(case: Case) -> dict[str, Any]:
-    """Return the data of a case by the names in cases.csv; None stands for missing data."""
+    """Return the data of a case by the names in cases.csv; None stands for missing data.
+
+    ValueError of a case that is more than they say.
+    """
     blade, motion = case.blade.blade, case.motion
     section, out_of_plane = blade.section, blade.section.out_of_plane
-    gravity: Any = case.loads[0] if case.loads else Gravity(0.0)
-    return {
+    gravity = next((one for one in case.loads if isinstance(one, Gravity)), Gravity(0.0))
+    row = {
         "id": case.name,
         "level": str(case.level),
         "asked": case.asked.name.lower(),
@@ -189,6 +194,42 @@ def row_of(case: Case) -> dict[str, Any]:
         "count": case.count if case.asked is Asked.FREQUENCIES else None,
         "amplitudes": list(case.amplitudes),
     }
+    for name, told in _told(row).items():
+        has = getattr(blade if hasattr(blade, name) else case, name)
+        if has != told:
+            raise ValueError(
+                f"case {case.name} has {name} = {has!r}, of which cases.csv would tell {told!r}: "
+                "name what is missing in row_of, _told and UNITS"
+            )
+    return row
+
+
+def _told(row: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields of the blade, motion and loads as a reader of a row takes them."""
+    # A cell holds a number: what changes along the blade is not told.
+    EA, EI, rhoA = (float(np.ravel(row[name])[0]) for name in ("EA", "EI", "rhoA"))
+    section = Section(axial_stiffness=EA, bending_stiffness=EI, mass_per_length=rhoA)
+    mass, gravity = row["tip_mass"], Gravity(row["gravity"], tilt=row["gravity_tilt"])
+    blade = Blade(
+        length=row["L"], section=section, hub_radius=row["hub_radius"],
+        point_masses=(PointMass(position=row["L"], mass=mass),) if mass else (),
+        damping=Damping(bending=row["bending_damping"]),
+    )  # fmt: skip
+    if row["EI_flap/EI"] is not None:
+        blade = blade.with_section_out_of_plane(row["EI_flap/EI"], row["GJ/EI"])
+    if row["twist"]:
+        blade = blade.with_twist(row["twist"])
+    if row["precone"]:
+        blade = blade.with_precone(row["precone"])
+    motion: Motion | None = None
+    if row["omega"] is not None:
+        motion = SteadyRotation(omega=row["omega"])
+        if row["T"] is not None:
+            motion = SpinUp(omega=row["omega"], ramp_time=row["T"])
+    loads = (gravity,) if gravity.gravity else ()
+    return {one.name: getattr(blade, one.name) for one in fields(blade)} | {
+        "motion": motion, "loads": loads
+    }  # fmt: skip
 
 
 def cases_csv() -> str:

@@ -140,7 +140,7 @@ def test_branches_of_the_papers_beam_by_two_resolutions(
     met = {
         (r.harmonic, r.mode): r.amplitude
         for r in found.resonances
-        if r.mode <= 4 and r.amplitude < up_to
+        if r.mode <= 4 and r.amplitude < up_to - 1e-3  # where more functions move the end
     }
     assert met == pytest.approx(resonances, abs=2e-3)
     turns = sorted(fold.amplitude for fold in found.folds if fold.amplitude < up_to)

@@ -8,12 +8,12 @@ from scipy.linalg import eigh
 
 from analytic import VARIANTS, Beam, Theory, Variant, linear_modes, periodic_orbits, reduced_model
 from analytic.beam import BETA_1
-from analytic.blade_functions import blade_functions
 from analytic.quadrature import gauss_points
 from analytic.reduced.any_blade import blade_oscillator
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.model_range import model_at, softening_speed
 from analytic.reduced.shapes import CantileverMode, rotating_mode
+from analytic.shape_functions import blade_functions
 from analytic.unit_blade import UNIFORM
 from tests.beams import clamped_basis, deflection_matrices, unit_beam
 

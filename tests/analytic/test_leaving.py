@@ -1,6 +1,7 @@
 """Branches that leave the plane: where they are born, how they grow, and that they are motions."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -49,10 +50,11 @@ def after_ten_periods(orbit, steps):
     found = np.broadcast_to(start, (8, q.size))
     factors = None
     for _ in range(steps):
-        root = method.step(
-            h, q, q_dot, np.broadcast_to(found[-1], found.shape), residual=system.residual,
-            tangent=system.tangent, newton=STEP, factors=factors,
+        step = partial(
+            method.step, h, q, q_dot, np.broadcast_to(found[-1], found.shape), newton=STEP,
+            residual=system.residual, tangent=system.tangent,
         )  # fmt: skip
+        root = step(factors=factors) or step()
         found, factors = root.z, root.factors
         q, q_dot = (part[-1] for part in method.stages(h, q, q_dot, found)[:2])
     return system.model.tip(q[None])[0]

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from analytic.exact.plane.growth import GROWTH, Growth, least_growth
+from analytic import Beam, Rectangle
+from analytic.exact.plane.growth import GROWTH, Growth, planar_orbits
 from analytic.exact.plane.stability_limit import _limit
 from analytic.methods.newton import NoOrbitError
 
@@ -137,4 +138,6 @@ def test_growth_counts_above_round_off():
     assert grows.rate(3.0) == pytest.approx(2.0 * GROWTH * 3.0 / (2.0 * np.pi))
     # Damped, all that grows counts, and nothing else.
     just = Growth((1.0 + 1e-9) * GROWTH, np.ones(8)).per_radian
-    assert least_growth(None, 0.005) == pytest.approx(just, rel=1e-8)
+    strip = Beam.reference().with_shape(Rectangle())
+    assert planar_orbits(strip, 2.0).least == 0.01
+    assert planar_orbits(strip, 2.0, damping=0.005).least == pytest.approx(just, rel=1e-8)

@@ -20,10 +20,10 @@ from analytic import (
     periodic_orbits,
     planar_stability,
 )
-from analytic.exact.beam.space import OutOfPlaneMotion, Space, with_points_for
 from analytic.exact.beam.steady import SteadyBeam, blade_continuum, steady_rotation
 from analytic.exact.driven.forced import DrivenBlade
 from analytic.exact.plane.growth import STEPS, grown
+from analytic.exact.plane.out_of_plane import OutOfPlaneMotion, Space, with_points_for
 from analytic.exact.space.steady import SpaceBlade, space_continuum
 from analytic.methods.floquet import flow
 from analytic.methods.system import Tangent
@@ -31,7 +31,7 @@ from analytic.parts import UNDAMPED
 from analytic.quadrature import gauss_points
 from analytic.section import OutOfPlane
 from analytic.theory import BERNOULLI_EULER
-from tests.beams import clamped_basis, unit_beam
+from tests.beams import clamped_basis, told, unit_beam
 
 RIGID = math.inf
 BEAM = Beam.reference()
@@ -196,11 +196,8 @@ def test_torsional_frequencies_are_those_of_a_rod(beam):
     twist = modes.twist(x)[:, 1]
     assert twist == pytest.approx(-np.sin(1.5 * np.pi * x / beam.length), abs=1e-9)
     assert modes.shares == pytest.approx(np.array([[0.0, 0.0, 1.0]] * 3), abs=1e-12)
-    doubled = beam.with_section_out_of_plane(
-        section.bending_ratio,
-        section.torsion_ratio,
-        4.0 * beam.slenderness * (1.0 + section.bending_ratio) * beam.mass_per_length * 64.0,
-    )
+    inertia = 4.0 * beam.slenderness * beam.mass_per_length * beam.length**2
+    doubled = told(beam, inertia, section.bending_ratio, section.torsion_ratio)
     halved = linear_modes(doubled, 0.0, plane="torsion").frequencies
     assert halved == pytest.approx(0.5 * modes.frequencies, rel=1e-10)
 
@@ -222,7 +219,7 @@ def test_a_bundle_of_loose_fibres_twists_as_fast_as_it_turns(r):
 def test_the_propeller_moment_is_that_of_the_moving_plane():
     """Ω = ϑ̇ + w: about a blade as it swings through its straight shape, along it as ϑ̇ does."""
     inertia = 1e-2 * BEAM.mass_per_length * BEAM.length**2
-    blade = BEAM.with_section_out_of_plane(0.5, 1e-3, inertia)
+    blade = told(BEAM, inertia / 1.5, 0.5, 1e-3)
     model = blade_continuum(blade, Theory(extension=False), 12, 1)
     space, planar = Space(blade, 8), SteadyBeam(model, 2.0)
     still, swinging = np.zeros((1, model.size)), np.zeros((1, model.size))
@@ -242,7 +239,7 @@ def test_the_propeller_moment_is_that_of_the_moving_plane():
 def test_a_section_that_the_rotation_turns_over_is_refused():
     """On edge, r = 4, and more inertia about its axis than the tension holds."""
     inertia = 0.1 * BEAM.mass_per_length * BEAM.length**2
-    blade = BEAM.with_section_out_of_plane(4.0, 0.01, inertia)
+    blade = told(BEAM, inertia / 5.0, 4.0, 0.01)
     with pytest.raises(ValueError, match="state ends or becomes unstable at .* rotate slower"):
         linear_modes(blade, 6.0, plane="torsion")
     assert linear_modes(blade, 0.1, 1, plane="torsion").frequencies[0] > 0.0

@@ -180,20 +180,8 @@ def test_torsion_alone_has_the_rotary_inertia_that_is_told():
     known = 0.5 * math.pi * math.sqrt(0.08 / (1.0625 * 2e-4))
     for theory in (Theory(), Theory(trapeze=False)):
         assert first(2e-4, theory) == pytest.approx(known, rel=1e-9)
-        with pytest.raises(ValueError, match="without polar inertia"):
+        with pytest.raises(ValueError, match="without inertia of the slices"):
             first(0.0, theory)
-
-
-def test_the_polar_inertia_of_a_taper_is_that_of_its_slices():
-    """Told for the root or found of the section: the same all along the blade."""
-    section = Section(
-        mass_per_length=[1.0, -0.5], axial_stiffness=[1e4, -4e3], bending_stiffness=[1.0, -0.6]
-    )
-    found = []
-    for polar in (None, (1.0 + 0.0625) * 1e-4):
-        blade = Blade(length=1.0, section=section).with_section_out_of_plane(0.0625, 0.08, polar)
-        found.append(linear_modes(blade.with_setting_angle(0.3), 1.0, 7, theory=SOLID).frequencies)
-    assert found[0] == pytest.approx(found[1], rel=1e-9)
 
 
 SPIN_UP = np.array([

@@ -17,7 +17,7 @@ from analytic import (
 )
 from analytic.exact.space.modes import orbit_modes
 from analytic.exact.space.steady import space_continuum, space_rotation
-from tests.beams import unit_beam
+from tests.beams import told, unit_beam
 
 SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
 BLADE = unit_beam(1e-4).with_section_out_of_plane(1.0 / 16.0, 0.08)
@@ -171,7 +171,7 @@ def test_a_family_that_an_internal_resonance_ends_is_refused(away, monkeypatch):
 )
 def test_a_state_with_others_beside_it_is_refused(verb):
     """A section on edge turns over at w̄ = 0.65, to either side: beyond are three states."""
-    blade = BLADE.with_section_out_of_plane(4.0, 0.01, 0.1).with_precone(0.05)
+    blade = told(BLADE, 0.02, 4.0, 0.01).with_precone(0.05)
     assert steady_state(blade, 0.6).tip[1] == pytest.approx(0.0, abs=1e-12)
     with pytest.raises(ValueError, match="ends or becomes unstable at w_bar = 0.64.*rotate slower"):
         verb(blade)

@@ -11,7 +11,6 @@ from scipy.optimize import brentq
 
 from analytic import Beam, paper_table, reduced_model
 from analytic.beam import BETA_1
-from analytic.blade_functions import blade_functions
 from analytic.reduced.lagrangian import energy_coefficients
 from analytic.reduced.shapes import (
     CantileverMode,
@@ -24,6 +23,7 @@ from analytic.reduced.shapes import (
 from analytic.reduced.symbolic import MU, OMEGA, X
 from analytic.reduced.symbolic import symbolic_forms as exact_forms
 from analytic.reduced.tables import PRINTED_BETA, closed_form, half_unit
+from analytic.shape_functions import blade_functions
 from analytic.unit_blade import UNIFORM
 
 

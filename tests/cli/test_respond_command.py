@@ -123,23 +123,23 @@ def test_a_twisted_blade_has_lag_flap_and_twist_of_its_tip(call, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("polar", "sentence"),
+    ("more", "sentence"),
     [
         ("", "The response leaves its plane at 3 of 14 points; the least, a = 0.08758 at 2.74"),
-        (", polar_inertia = 0.0", "in its plane is not known: .* a twist without inertia"),
+        ("rotary_inertia = 0.0\n", "in its plane is not known: .* a twist without inertia"),
     ],
 )
 def test_a_known_section_tells_whether_the_response_leaves_the_plane(
-    call, tmp_path, polar, sentence
+    call, tmp_path, more, sentence
 ):
     data, said = answered(
-        call, tmp_path, f"bending_ratio = 0.01, torsion_ratio = 0.02{polar}",
-        "[blade.damping]\nbending = 0.01\n",
+        call, tmp_path, "bending_ratio = 0.01, torsion_ratio = 0.02",
+        f"{more}[blade.damping]\nbending = 0.01\n",
         "--omega", "2", "--tip-force", "0.5", "--from", "2.4", "--to", "2.8", "--functions", "8",
     )  # fmt: skip
     assert re.search(sentence, said)
-    assert ("growth_rate" in data) == (not polar)
-    if not polar:
+    assert ("growth_rate" in data) == (not more)
+    if not more:
         assert (data["growth_rate"] > 0.0).to_numpy().tolist() == [False] * 11 + [True] * 3
 
 

@@ -25,6 +25,8 @@ from softness import SHARE
 
 @dataclass(frozen=True, kw_only=True)
 class Softer(Cable):
+    name = "cable"
+
     def lay(self, mbs, beam, elements):
         return super().lay(mbs, replace(beam, youngs_modulus=SHARE * beam.youngs_modulus), elements)
 """

@@ -15,9 +15,12 @@ ROOT = Path(__file__).parents[2]
 PLAIN = {
     "records that the example of what makes them shows": (
         "analytic.exact.free.curve.BackboneCurve analytic.spin_up.quiet.QuietRamps "
-        "analytic.exact.linear.tracking.Crossing analytic.reduced.linear_frame.LinearResponse "
+        "analytic.exact.linear.campbell.Crossing analytic.reduced.linear_frame.LinearResponse "
         "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
         "analytic.exact.plane.stability_limit.StabilityLimit "
+        "analytic.exact.driven.response.SpinUpResponse analytic.exact.free.backbone.Backbone "
+        "analytic.exact.free.branches.BackboneBranch "
+        "analytic.exact.plane.planarity.PlanarStability "
         "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam "
         "analytic.reduced.model.ReducedModel rotbeam_exu.runs.oscillation.SteadyOscillation"
     ),
@@ -41,8 +44,7 @@ BEYOND = {
     "analytic.exact.free.internal_resonance", "analytic.exact.free.leaving",
     "analytic.exact.free.orbits",
     "analytic.exact.linear.campbell",
-    "analytic.exact.linear.modes", "analytic.exact.linear.tracking",
-    "analytic.exact.plane.planarity",
+    "analytic.exact.linear.modes", "analytic.exact.plane.planarity",
     "analytic.exact.plane.stability_limit", "analytic.exact.space.modes",
     "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.model_range",
     "analytic.section", "analytic.spin_up.quiet",

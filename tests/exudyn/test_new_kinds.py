@@ -43,6 +43,9 @@ from rotbeam_exu.runs.attributes import (
     motion_attributes,
     motion_of,
 )
+from rotbeam_exu.verification.cases import spin_up_case
+from rotbeam_exu.verification.entries import formulation_entry
+from rotbeam_exu.verification.verify import handed_in
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,6 +71,51 @@ class Shake(HarmonicLoad):
     called: ClassVar[str] = "a shake"
     dimension: ClassVar[tuple[int, int, int]] = (1, 0, -2)
     acts_on: ClassVar[str] = "mass"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObliqueForce(TipForce):
+    """A force on the tip with a part along the undeformed blade."""
+
+    along: float = 0.0
+
+    dimensions: ClassVar[dict[str, tuple[int, int, int]]] = {"along": (1, 1, -2)}
+
+    def force(self, phase, angle, setting):
+        return (self.along + 1j * self.amplitude) * np.cos(phase)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HalfTold(ObliqueForce):
+    """One that does not tell what its other number is."""
+
+    dimensions: ClassVar[dict[str, tuple[int, int, int]]] = {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Heave(Shake):
+    """A clamp that is shaken along the axis of rotation."""
+
+    def force(self, phase, angle, setting):
+        return 0j * phase
+
+    def lift(self, phase):
+        return self.amplitude * np.cos(phase)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moment(Shake):
+    """A moment on each section, which blades do not take."""
+
+    acts_on: ClassVar[str] = "sections"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gust(DistributedForce):
+    """A wind that comes and goes in one direction, whatever the angle."""
+
+    def force(self, phase, angle, setting):
+        return self.amplitude * np.cos(phase) * np.exp(-1j * angle)
 
 
 @dataclass(frozen=True)
@@ -109,7 +157,7 @@ class HalfSine(SpeedChange):
 
 @dataclass(frozen=True, kw_only=True)
 class SoftCable(Cable):
-    """A cable of a softer material, that says nothing of its name."""
+    """A cable of a softer material, that says nothing of its name, and so has its own."""
 
     share: float = 0.5
 
@@ -136,6 +184,37 @@ def test_exudyn_and_theory_agree_on_them(beam):
     assert min(np.abs(exact - other).max() for other in less) > 0.1 * largest
     with pytest.raises(TypeError, match="the frequency of a load, and a wind of 0.5 N/m has none"):
         forced_response(beam, 6.0, wind, [3.6, 3.7])
+
+
+def test_all_numbers_of_a_load_have_their_units(beam):
+    time, both = np.linspace(0.0, 3.0, 16), {"amplitude": 0.5, "frequency": 3.0}
+    oblique = [ObliqueForce(along=0.5, **both)]
+    run = simulate(beam, MOTION, elements=6, duration=3.0, step=4e-3, loads=oblique)
+    exact, parts = (
+        spin_up_response(beam, MOTION, time, tolerance=1e-4, loads=loads).q
+        for loads in (oblique, [TipPull(amplitude=0.5, frequency=3.0), TipForce(**both)])
+    )
+    assert exact == pytest.approx(parts, abs=1e-9)
+    # Six cables at 4 ms.
+    assert np.interp(time, run["time"], run["q"]) == pytest.approx(exact, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("load", "error", "sentence"),
+    [
+        (
+            HalfTold(amplitude=1.0, along=1.0),
+            TypeError,
+            "a half told of 1 N has along of un",
+        ),
+        (Moment(amplitude=1.0), TypeError, "acts on 'sections': let it be one of mass, length"),
+        (Heave(amplitude=1.0), ValueError, "in the plane of rotation, which Heave.* leaves"),
+        (Gust(amplitude=1.0), ValueError, "a gust of 1 N/m goes by the angle of the clamp as well"),
+    ],
+)
+def test_loads_that_cannot_be_are_refused(beam, load, error, sentence):
+    with pytest.raises(error, match=sentence):
+        forced_response(beam, 6.0, load, [3.6, 3.7])
 
 
 def test_what_a_new_ramp_leaves_is_known(beam):
@@ -173,7 +252,7 @@ def test_a_run_and_its_file_say_what_drove_it(beam, tmp_path):
     assert (again.spin_up, again.loads, again.model) == (MOTION, (PULL,), model)
     assert motion_of(attrs) == MOTION
     assert loads_of(attrs) == (PULL,)
-    # It is the soft one, though it has the cable's name.
+    assert (attrs["element"], Cable.name) == ("SoftCable", "cable")
     soft, cable = (
         natural_frequencies(beam, 0.0, element=one, elements=4)[0] for one in (again.model, "cable")
     )
@@ -304,3 +383,16 @@ def test_two_kinds_cannot_have_one_name():
 def test_blades_are_read_back(blade):
     assert beam_of(beam_attributes(blade)) == blade
     assert from_description(describe(blade), type(blade)) == blade
+
+
+def test_a_new_case_of_the_benchmark_is_handed_in_whole(beam):
+    blade = beam.with_point_mass(0.1, 4.0).with_setting_angle(0.3)
+    case = replace(
+        spin_up_case(blade.with_damping(Damping(external=0.05)), MOTION, 3.0),
+        loads=(TipForce(amplitude=0.5, frequency=3.0),),
+    )
+    run = handed_in(formulation_entry(Cable(), elements=4, step=4e-3), [case]).runs[-1]
+    exact = spin_up_response(case.blade, MOTION, run.time, tolerance=1e-3, loads=case.loads).q
+    assert run.elements == 8
+    # Eight cables at 8 ms; without the mass, the angle, drag or the force 0.05 or more.
+    assert run.q == pytest.approx(exact, abs=5e-3 * np.abs(exact).max())

@@ -17,10 +17,10 @@ FLOORS = {
     "analytic": [
         {"arrays", "description", "lazily", "threads", "warning"},
         {"input_checks", "quadrature", "settled", "methods", "plotting"},
-        {"profiles", "motion", "theory"},
+        {"motion", "theory"},
         {"parts", "section", "unit_blade", "loads", "ramps"},
         {"shape_functions", "section_shapes", "station_section"},
-        {"blade", "blade_functions"},
+        {"blade"},
         {"beam"},
         {"reduced", "exact"},  # neither knows the other
         {"spin_up"},

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from analytic import SpeedTable, SpinUp, linear_modes, spin_up_response
+from analytic import FourierRamp, SpeedTable, SpinUp, linear_modes, spin_up_response
 from analytic.exact.beam.state import Driven
 from analytic.exact.beam.steady import continuum
 from rotbeam_exu.verification.cases import CASES
@@ -83,6 +83,14 @@ def test_another_ramp(named, name):
     time = TIME[TIME <= 3.0]
     q = response(ramp(name, 6.0, 3.0), time, 1e-2).q
     assert named(q, time) == name
+
+
+def test_a_ramp_that_is_not_that_of_eq_1_is_not_told_to_be():
+    other = replace(S1, motion=FourierRamp(omega=6.0, ramp_time=3.0, cosines=(-1.2, 0.2)))
+    time = TIME[TIME <= 3.0]
+    wrong = response(ramp(next(iter(RAMPS)), 6.0, 3.0), time, 1e-2).q
+    found = mistake_in_history(other, time, wrong, response(other.motion, time, 1e-3).q)
+    assert found is None
 
 
 @pytest.mark.parametrize("force", FORCES)

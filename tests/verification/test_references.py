@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from analytic import Beam, SpinUp, linear_modes, periodic_orbits, spin_up_response
+from analytic import (
+    Beam,
+    Gravity,
+    SpinUp,
+    TipForce,
+    linear_modes,
+    periodic_orbits,
+    spin_up_response,
+)
 from analytic.theory import Theory
 from rotbeam_exu.verification import shipped as room
 from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case
@@ -205,6 +213,21 @@ def test_what_is_not_asked_is_refused():
         reference(CASES["S1"]).history(-1.0)
     with pytest.raises(ValueError, match="case B has several speeds: say which"):
         reference(CASES["B"]).frequency_at(0.1)
+
+
+@pytest.mark.parametrize(
+    ("name", "load", "sentence"),
+    [
+        ("L", Gravity(), "case L, natural frequencies .*, knows no Gravity.* take a spin-up"),
+        ("B", Gravity(), "take a spin-up"),
+        ("O", Gravity(), "take a spin-up"),
+        ("P", Gravity(), "knows no Gravity.* weight along the axis of rotation alone"),
+        ("P", TipForce(amplitude=5.0, frequency=0.0), "knows no TipForce"),
+    ],
+)
+def test_loads_that_a_reference_would_leave_out_are_refused(name, load, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        replace(CASES[name], loads=(load,))
 
 
 def other_data(tmp_path, monkeypatch, content):

@@ -29,9 +29,8 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ...arrays import ComplexArray, FloatArray
+from ...arrays import ComplexArray, FloatArray, evaluated
 from ...methods.system import Tangent
-from ...profiles import evaluated
 from ...unit_blade import UNIFORM, UnitBlade
 from .kinematics import Kinematics
 from .state import Driven

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,10 +73,15 @@ class Kinematics:
     def bent(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the curvature ϑ', e and e' at the Gauss points, each (samples, points)."""
         theta, strains = self.split(q)
-        turned = self._across.strain(self.points)
-        stretched = math.sqrt(self.slenderness) * self._along.elongation_slope(self.points)
+        turned, stretched = self._bends
         change = strains[..., : self.axial] @ stretched.T
         return theta @ turned.T, self._strain(q).real, change
+
+    @cached_property
+    def _bends(self) -> tuple[FloatArray, FloatArray]:
+        """φ_k' and √μ ψ_k' at the Gauss points, each (points, functions)."""
+        stretched = math.sqrt(self.slenderness) * self._along.elongation_slope(self.points)
+        return self._across.strain(self.points), stretched
 
     def slope(self, q: FloatArray, x: FloatArray | None = None) -> ComplexArray:
         """Return z' = (1 + e + iγ) exp(iθ) at `x`, the Gauss points if None: (samples, points)."""

@@ -9,12 +9,11 @@ from typing import Any, ClassVar, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...arrays import ComplexArray, FloatArray
+from ...arrays import ComplexArray, FloatArray, evaluated, in_units
 from ...beam import AnyBlade, require_planar, require_steady_state
 from ...input_checks import points_of_beam, whole_number
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent, reciprocal_modes
-from ...profiles import evaluated, in_units
 from ...shape_functions import shape_functions
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...unit_blade import UnitBlade

@@ -169,8 +169,8 @@ def forced_response(
         raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
     if load.leaves_plane:
         raise ValueError(
-            f"forced_response takes {load.called} in the plane of rotation: leave the tilt out, or "
-            "take spin_up_response"
+            f"forced_response takes loads in the plane of rotation, which {load!r} leaves: take "
+            "spin_up_response"
         )
     if load.frequency is not None:
         raise ValueError(
@@ -178,6 +178,12 @@ def forced_response(
             "leave it out of the load, and give it among the frequencies"
         )
     by_speed = load.varied == "speed"
+    start = np.zeros(1)
+    if not by_speed and not np.isfinite(unit.force(start, np.nan * start, 1.0)).all():
+        raise ValueError(
+            f"{load} goes by the angle of the clamp as well, so that no response is periodic: take "
+            "spin_up_response"
+        )
     if by_speed:
         if frequencies is not None:
             raise ValueError(
@@ -272,16 +278,12 @@ def _packed(
     orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
-    per_second = beam.frequency_scale
     return kind(
-        beam=beam,
+        **kind.told(beam, orbits),
         load=load,
         theory=theory,
-        omega=per_second * np.array([o.system.speed(o.frequency) for o in orbits]),
-        frequency=per_second * np.array([orbit.frequency for orbit in orbits]),
-        amplitude=np.array([orbit.amplitude for orbit in orbits]),
+        omega=beam.frequency_scale * np.array([o.system.speed(o.frequency) for o in orbits]),
         harmonics=np.array(harmonics),
         residual=np.array([orbit.residual for orbit in orbits]),
         marks=marks,
-        nondimensional=orbits,
     )

@@ -59,14 +59,6 @@ class SpinUpResponse:
         coarser solution in step and functions, hence an upper estimate.
     steps, functions : int
         Steps of order 15 and functions for θ of the solution returned.
-
-    Examples
-    --------
-    >>> from analytic import Beam, SpinUp, spin_up_response
-    >>> motion = SpinUp(omega=2.0, ramp_time=1.0)
-    >>> found = spin_up_response(Beam.reference(), motion, [1.0], tolerance=1e-4)
-    >>> print(found.tip.round(4), found.error < 1e-4)
-    [[7.2764 2.6466]] True
     """
 
     beam: AnyBlade

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
@@ -46,6 +47,16 @@ class OrbitSet:
     frequency: FloatArray  # [rad/s], (orbits,)
     amplitude: FloatArray  # peak |q|/L, (orbits,)
     nondimensional: tuple[Orbit[Any], ...] = field(repr=False)  # in time t √(EI/mL³)
+
+    @staticmethod
+    def told(beam: AnyBlade, orbits: Sequence[Orbit[Any]]) -> dict[str, Any]:
+        """Return these attributes of orbits of a blade."""
+        return {
+            "beam": beam,
+            "frequency": beam.frequency_scale * np.array([orbit.frequency for orbit in orbits]),
+            "amplitude": np.array([orbit.amplitude for orbit in orbits]),
+            "nondimensional": tuple(orbits),
+        }
 
     def _orbit(self, i: int) -> Orbit[Any]:
         count = len(self.nondimensional)

@@ -50,14 +50,6 @@ class BackboneBranch(Branch):
     resonances : tuple of Resonance
         Where a harmonic of the orbits on the main path meets another mode, by the Floquet exponents
         about them, ascending.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Theory, backbone
-    >>> theory = Theory(extension=False)
-    >>> found = backbone(Beam.reference(), omega=6.0, theory=theory).branch(up_to=0.1)
-    >>> print(f"{found.frequency[-1]:.5f} rad/s at {found.amplitude[-1]:.2f} L")
-    3.73001 rad/s at 0.10 L
     """
 
     omega: float
@@ -95,15 +87,12 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
     pieces = [[(orbit, "") for orbit in main], *filter(None, [*tongues, end])]
     orbits, marks = zip(*(marked for piece in pieces for marked in piece), strict=True)
     return BackboneBranch(
-        beam=of.beam,
+        **BackboneBranch.told(of.beam, orbits),
         omega=of.omega,
         mode=of.mode,
-        amplitude=np.array([orbit.amplitude for orbit in orbits]),
-        frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
         marks=marks,
         piece=np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces]),
         resonances=tuple(met),
-        nondimensional=orbits,
     )
 
 

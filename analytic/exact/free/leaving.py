@@ -233,20 +233,16 @@ def leaving_branch(
     )  # fmt: skip
     birth = leaving.orbit(amplitude)
     orbits, ended = _followed(leaving, birth, points)
-    per_second = of.beam.frequency_scale
     return LeavingBranch(
-        beam=of.beam,
+        **LeavingBranch.told(of.beam, orbits),
         omega=of.omega,
         mode=of.mode,
         periods=periods,
         mirror=leaving.system.mirror,
-        born=SpecialPoint(periods * birth.frequency * per_second, amplitude),
+        born=SpecialPoint(periods * birth.frequency * of.beam.frequency_scale, amplitude),
         born_error=error,
-        frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
-        amplitude=np.array([orbit.amplitude for orbit in orbits]),
         marks=("",) * len(orbits),
         ended=ended,
-        nondimensional=tuple(orbits),
     )
 
 

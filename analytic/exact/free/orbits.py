@@ -174,22 +174,21 @@ def _confirmed(of: ModePath, found: dict[float, BeamOrbit]) -> dict[float, BeamO
     The branch is computed again on more functions, which may lead into another orbit, until that
     changes no frequency. The last change is the error.
     """
+    suspects = list(found)
     for _ in range(_RELAID):
-        suspects = [a for a, o in found.items() if outstanding(of, o)]
+        suspects = [a for a in suspects if outstanding(of, found[a])]
         if not suspects:
             break
         of = replace(of, model=of.path.seed.system.refined().model)
         finer, _ = _found(of, np.sort(suspects))
-        changes = []
+        changing = []
         for a in suspects:
             one = finer.get(a, found[a])
-            changes.append(
-                abs(one.frequency / found[a].frequency - 1.0) if a in finer else math.inf
-            )
-            error = max(one.frequency_error, changes[-1])
-            found[a] = replace(one, frequency_error=error)
-        if max(changes) <= FREQUENCY_BOUND:
-            break
+            change = abs(one.frequency / found[a].frequency - 1.0) if a in finer else math.inf
+            found[a] = replace(one, frequency_error=max(one.frequency_error, change))
+            if change > FREQUENCY_BOUND:
+                changing.append(a)
+        suspects = changing
     return found
 
 
@@ -212,19 +211,15 @@ def _packed(of: ModePath, orbits: list[BeamOrbit], kind: type[Orbits]) -> Orbits
     """Return the orbits as a value."""
     softening, error = of.softening()
     count = max(orbit.harmonics for orbit in orbits)
-    per_second = of.beam.frequency_scale
     return kind(
-        beam=of.beam,
+        **kind.told(of.beam, orbits),
         omega=of.omega,
         mode=of.mode,
         omega_n=of.omega_n,
-        amplitude=np.array([orbit.amplitude for orbit in orbits]),
-        frequency=np.array([orbit.frequency for orbit in orbits]) * per_second,
         lambda_omega=softening,
         lambda_omega_error=error,
         harmonics=np.array([np.pad(o.gauge_sines, (0, count - o.harmonics)) for o in orbits]),
         frequency_error=np.array([orbit.frequency_error for orbit in orbits]),
         residual=np.array([orbit.residual for orbit in orbits]),
         jacobi_drift=np.array([orbit.invariant_drift for orbit in orbits]),
-        nondimensional=tuple(orbits),
     )

@@ -9,12 +9,11 @@ from typing import Any, Literal, cast, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import ComplexArray, FloatArray
+from ...arrays import ComplexArray, FloatArray, in_units
 from ...beam import AnyBlade, require_out_of_plane, warn_if_rpm
 from ...blade import Blade
 from ...input_checks import points_of_beam, rotation_speed, whole_number
 from ...methods.system import inverse_eigenvalues
-from ...profiles import in_units
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
@@ -205,13 +204,8 @@ def damping_ratios(
 
     Parameters
     ----------
-    beam : Beam or Blade
-    omega : float
-        Rotation speed ω [rad/s].
-    count : int
-        Number of modes.
-    theory : Theory
-        Extension, shear, rotary inertia, trapeze effect.
+    beam, omega, count, theory
+        As for `linear_modes`.
 
     Raises
     ------

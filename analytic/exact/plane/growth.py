@@ -16,14 +16,14 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.space import OutOfPlaneMotion, Space, with_points_for
 from ..beam.steady import SteadyBeam, resolved_model
 from ..free.path import AmplitudeNotReachedError, ModePath
+from .out_of_plane import OutOfPlaneMotion, Space, with_points_for
 
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""
 LEAST_GROWTH = 0.01
-"""Growth per radian of the orbit that counts unless told."""
+"""Growth per radian of an undamped orbit that counts."""
 SMALLEST = 0.01
 """Peak |q|/L of the smallest orbits that are looked at."""
 STEPS = 24
@@ -192,7 +192,12 @@ class PlanarOrbits(ModePath):
     @property
     def damped(self) -> bool:
         """Whether anything resists what leaves the plane."""
-        return _resisted(self.blade, self.damping)
+        return bool(self.damping) or any(self.blade.unit.damping)
+
+    @property
+    def least(self) -> float:
+        """Growth per radian that counts: any, if it is damped."""
+        return GROWTH / (2.0 * np.pi) if self.damped else LEAST_GROWTH
 
     @cached_property
     def functions(self) -> int:
@@ -205,15 +210,6 @@ class PlanarOrbits(ModePath):
         return grown(
             self.blade, orbit, finer * self.functions, finer * STEPS, self.theory, self.damping
         )
-
-
-def least_growth(blade: AnyBlade, damping: float) -> float:
-    """Return the growth per radian that counts unless told: any if it is damped."""
-    return GROWTH / (2.0 * np.pi) if _resisted(blade, damping) else LEAST_GROWTH
-
-
-def _resisted(blade: AnyBlade, damping: float) -> bool:
-    return bool(damping) or any(blade.unit.damping)
 
 
 def planar_orbits(

@@ -115,13 +115,6 @@ class PlanarStability(GrowthOutOfPlane):
     Attributes
     ----------
     blade, omega, mode : as given
-
-    Examples
-    --------
-    >>> from analytic import Beam, Rectangle, planar_stability
-    >>> strip = Beam.reference().with_shape(Rectangle())
-    >>> print(planar_stability(strip, 4.0, amplitudes=[0.01]))
-    The planar orbits at 4 rad/s stay in their plane, 1 up to a = 0.01
     """
 
     blade: AnyBlade

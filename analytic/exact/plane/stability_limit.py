@@ -7,19 +7,11 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from ...beam import AnyBlade, require_out_of_plane
-from ...input_checks import peak_deflection, positive, rotation_speed, whole_number
+from ...input_checks import peak_deflection, rotation_speed, whole_number
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from .growth import (
-    GROWTH,
-    LEAST_GROWTH,
-    SMALLEST,
-    Growth,
-    PlanarOrbits,
-    least_growth,
-    planar_orbits,
-)
+from .growth import GROWTH, LEAST_GROWTH, SMALLEST, Growth, PlanarOrbits, planar_orbits
 
 LARGEST = 0.6
 """Peak |q|/L up to which is looked unless told."""
@@ -122,14 +114,13 @@ def stability_limit(
     mode: int = 1,
     *,
     damping: float = 0.0,
-    growth: float | None = None,
     largest: float = LARGEST,
     theory: Theory = BERNOULLI_EULER,
 ) -> StabilityLimit:
     """Return the amplitude from which on the planar orbits of a blade leave their plane.
 
-    From there up to `largest` all of them grow by at least `growth` per radian of the orbit. A
-    least unstable amplitude is no property of the blade: without damping, sum resonances of ever
+    From there up to `largest` all of them grow by at least 0.01 per radian of the orbit. A least
+    unstable amplitude is no property of the blade: without damping, sum resonances of ever
     higher modes lie everywhere, ever narrower and slower. `tongues` are the resonances found below
     the limit. Amplitudes from 0.01 on are tried in steps of 2 %, or 5 % if the orbit grows ten
     times as fast, and of 0.25 % from 0.85 of the limit on. Narrower tongues may be missed.
@@ -140,20 +131,10 @@ def stability_limit(
 
     Parameters
     ----------
-    blade : Blade
-        With a section out of the plane.
-    omega : float
-        Rotation speed ω [rad/s].
-    mode : int
-        In-plane mode from which the orbits grow, from 1.
-    damping : float
-        Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
-    growth : float, optional
-        Growth exponent over the orbit's frequency [1/rad] that counts: 0.01, or any with damping.
+    blade, omega, mode, damping, theory
+        As for `planar_stability`.
     largest : float
         Largest |q|/L to look at.
-    theory : Theory
-        Of the orbits, without shear.
 
     Raises
     ------
@@ -173,8 +154,7 @@ def stability_limit(
     require_out_of_plane(blade, theory)
     omega, mode = rotation_speed(omega), whole_number("mode", mode)
     orbits = planar_orbits(blade, omega, mode, theory, damping)
-    growth = least_growth(blade, damping) if growth is None else growth
-    return _limit(orbits, positive("growth", growth), peak_deflection("largest", largest))
+    return _limit(orbits, orbits.least, peak_deflection("largest", largest))
 
 
 def _limit(orbits: PlanarOrbits, least: float, largest: float) -> StabilityLimit:
@@ -269,12 +249,6 @@ def _tongues(orbits: PlanarOrbits, seen: dict[float, Growth], limit: float) -> t
                 low = _bisected(orbits, before, low, 0.0) if before else low
                 high = _bisected(orbits, after, high, 0.0) if math.isfinite(after) else high
             found.append(
-                Tongue(
-                    low=low,
-                    high=high,
-                    growth=most.per_radian,
-                    kind=most.kind,
-                    modes=most.modes,
-                )
+                Tongue(low=low, high=high, growth=most.per_radian, kind=most.kind, modes=most.modes)
             )
     return tuple(found)

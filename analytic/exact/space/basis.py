@@ -13,8 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import FloatArray
-from ...profiles import evaluated, slope_of
+from ...arrays import FloatArray, evaluated, slope_of
 from ...quadrature import Grid
 from ...shape_functions import shape_functions
 from ...theory import Theory

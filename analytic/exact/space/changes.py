@@ -68,17 +68,18 @@ class Changes:
     def matrices(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return M, C and the part of K from accelerations, each (samples, n, n)."""
         masses = self._model.masses
-        pulls = [(self.center, self.turn_m), self._of_rates(), self._of_places()]
+        velocity, *of_places = self._of_places()
+        parts = [(self.center, self.turn_m), self._of_rates(), of_places]
         heavy = masses.mass * self.center
-        mass, damping, stiffness = (_contracted(heavy, pull) for pull, _ in pulls)
+        mass, damping, stiffness = (_contracted(heavy, pull) for pull, _ in parts)
         if masses.turns:
             mass += _contracted(self.turn_m, self._carried)
-            damping += _contracted(self.turn_m, pulls[1][1])
-            stiffness += _contracted(self.turn_m, pulls[2][1])
+            damping += _contracted(self.turn_m, parts[1][1])
+            stiffness += _contracted(self.turn_m, parts[2][1])
         if masses.drag is not None:
             dragged = masses.drag * self._place_m
             damping += _contracted(dragged, self._place_m)
-            stiffness += _contracted(dragged, self._velocity)
+            stiffness += _contracted(dragged, velocity)
         return mass, damping, stiffness
 
     @cached_property
@@ -91,38 +92,6 @@ class Changes:
     def _carried(self) -> FloatArray:
         """R J Rᵀ Φ."""
         return turned(self._inertia, self.turn_m)
-
-    @cached_property
-    def _bent(self) -> FloatArray:
-        """The change of R K̇ with q, as R turns."""
-        return cross(self.turn, self._motion.turning)
-
-    @cached_property
-    def _spins_m(self) -> FloatArray:
-        """The change of the masses' spin with q."""
-        return self._integral(self._bent)
-
-    @property
-    def _spins(self) -> FloatArray:
-        """The same at the points."""
-        return np.asarray(self._model.at_points(self._spins_m))
-
-    @cached_property
-    def _stretched(self) -> FloatArray:
-        """The change of R Γ̇ with q."""
-        motion = self._motion
-        return cross(self.turn, motion.stretching) + self._shortening(motion.turning)
-
-    @cached_property
-    def _slope_rate(self) -> FloatArray:
-        """The change of ṙ' with q."""
-        slope = cross(self._spins, self._at.slope) + cross(self._motion.spin, self.slope)
-        return slope + self._stretched
-
-    @cached_property
-    def _velocity(self) -> FloatArray:
-        """The change of the masses' velocity with q."""
-        return self._integral(self._slope_rate)
 
     def _shortening(self, turning: FloatArray) -> FloatArray | float:
         """Return the change -k² K̇1 Ψ1 R e1 of R Γ̇ with q."""
@@ -150,42 +119,45 @@ class Changes:
         about = change + cross(W, self.turn_m)
         pull += cross(about, offset)
         pull += cross(self.turn_m, cross(total, offset)) + cross(total, self._offset)
-        if not self._model.masses.turns:
-            return pull, about
         couple = cross(self.turn_m, turned(self._inertia, motion.total_spin))
         return pull, couple + turned(self._inertia, about) + cross(total, self._carried)
 
-    def _of_places(self) -> tuple[FloatArray, FloatArray]:
-        """Return the derivatives of A_c and of J α + ω × J ω to q."""
+    def _of_places(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the derivatives of ṙ, A_c and J α + ω × J ω to q."""
         at, motion, W, W_dot = self._at, self._motion, self._W, self._W_dot
         turn, spin, slope = self.turn, motion.spin, at.slope
         turning, stretching = motion.turning, motion.stretching
-        spins_m, spins = self._spins_m, self._spins
+        # Of R K̇ and R Γ̇, as R turns and the axis shortens, of the spin and of ṙ'.
+        bent = cross(turn, turning)
+        stretched = cross(turn, stretching) + self._shortening(turning)
+        spins_m = self._integral(bent)
+        spins = self._model.at_points(spins_m)
+        slope_rate = cross(spins, slope) + cross(spin, self.slope) + stretched
+        velocity = self._integral(slope_rate)
         change = self._integral(
-            cross(turn, motion.twisting) + cross(spins, turning) + cross(spin, self._bent)
+            cross(turn, motion.twisting) + cross(spins, turning) + cross(spin, bent)
         )
         pulled = (
             cross(self._model.at_points(change), slope)
             + cross(motion.spin_rate, self.slope)
             + cross(spins, cross(spin, slope) + 2.0 * stretching)
-            + cross(spin, self._slope_rate + self._stretched)
+            + cross(spin, slope_rate + stretched)
             + cross(turn, motion.speeding)
             + self._shortening(motion.twisting)
         )
         total, offset = motion.total_spin, at.offset_m
-        pull = self._integral(pulled) + cross(W, 2.0 * self._velocity + cross(W, self._place_m))
+        pull = self._integral(pulled) + cross(W, 2.0 * velocity + cross(W, self._place_m))
         pull += cross(W_dot, self._place_m)
         if self._model.masses.whole_on_line:
-            return pull, pull
+            return velocity, pull, pull
         about = change + cross(W, spins_m)
         pull += cross(about, offset) + cross(motion.total_spin_rate, self._offset)
         pull += cross(spins_m, cross(total, offset))
         pull += cross(total, cross(spins_m, offset) + cross(total, self._offset))
-        if not self._model.masses.turns:
-            return pull, about
         couple = self._turned_inertia(motion.total_spin_rate, about)
         couple += cross(spins_m, turned(self._inertia, motion.total_spin))
-        return pull, couple + cross(total, self._turned_inertia(motion.total_spin, spins_m))
+        couple += cross(total, self._turned_inertia(motion.total_spin, spins_m))
+        return velocity, pull, couple
 
     def _turned_inertia(self, vector: FloatArray, change: FloatArray) -> FloatArray:
         """Return the change of R J Rᵀ y to q, where y changes by `change`."""

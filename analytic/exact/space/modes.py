@@ -111,10 +111,10 @@ def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> 
         )
     told = blade.section.rotary_inertia
     massless = told == 0.0 if told is not None else not (theory.trapeze or theory.rotary_inertia)
-    if massless or known.polar_inertia == 0.0:
+    if massless:
         raise ValueError(
-            "torsion has no modes without polar inertia: leave polar_inertia and rotary_inertia "
-            "out, for those of a homogeneous section, and trapeze=False"
+            "torsion has no modes without inertia of the slices: leave rotary_inertia out, for "
+            "that of a homogeneous section, and trapeze=False"
         )
     return space_modes(blade, omega, count, theory, torsion=True)
 

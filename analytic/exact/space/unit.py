@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...arrays import FloatArray, Profile
+from ...arrays import FloatArray, Profile, evaluated
 from ...parts import STRAIGHT, Line, Offset, scaled
-from ...profiles import evaluated
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
 from ...station_section import StationSection
@@ -33,7 +32,6 @@ class SpaceUnit(UnitBlade):
     line: Line = STRAIGHT  # over L
     flap: float = 1.0  # r = EI2/EI3
     torsion: float = math.inf  # g = GJ/EI3
-    polar: float | None = None  # ρI_p over m0 L² at the root, None of a homogeneous section
     told_rotary: bool = False  # whether the section tells `rotary`
     body_offsets: tuple[Offset, ...] = ()  # (c2, c3) over L of each point mass
 
@@ -83,18 +81,15 @@ class SpaceUnit(UnitBlade):
     ) -> tuple[FloatArray, FloatArray]:
         """Return the centers of mass (3, places) from the line, and j about them (3, 3, places)."""
         mass = evaluated(self.mass, x)
-        solid = mass * evaluated(self.bending, x) / evaluated(self.axial, x)
         if self.told_rotary:
             j3 = evaluated(self.rotary, x)
         elif theory.rotary_inertia or theory.trapeze:
-            # A polar inertia that is told is parted as 1 to r.
-            j3 = (slenderness if self.polar is None else self.polar / (1.0 + self.flap)) * solid
+            j3 = slenderness * mass * evaluated(self.bending, x) / evaluated(self.axial, x)
         else:
             j3 = np.zeros_like(x)
         j2 = self.flap * j3
-        polar = j2 + j3 if self.polar is None or not j3.any() else self.polar * solid
         center = np.outer((0.0, *self.line.mass_offset), np.ones_like(x))
-        return center, np.stack((polar, j2, j3)) * np.eye(3)[:, :, None]
+        return center, np.stack((j2 + j3, j2, j3)) * np.eye(3)[:, :, None]
 
     @property
     def twists(self) -> bool:
@@ -250,11 +245,9 @@ def space_unit(beam: AnyBlade) -> SpaceUnit:
         section: Any = blade.section.in_units(length, mass, time)
         return StationUnit(**common, section=section)
     assert out.torsion_ratio is not None
-    polar = out.polar_inertia
     return SpaceUnit(
         **common,
         flap=out.bending_ratio,
         torsion=out.torsion_ratio,
-        polar=None if polar is None else polar / (blade.mass_per_length * length**2),
         told_rotary=blade.section.rotary_inertia is not None,
     )

@@ -75,7 +75,7 @@ class Formulation(Described, abstract=True):
     """
 
     name: ClassVar[str]
-    """Name that the user gives."""
+    """Name that the user gives; of a class that says none its own, never that of its base."""
 
     takes_blades: ClassVar[bool] = False
     """Whether it models any `Blade`, not the uniform beam alone."""
@@ -106,6 +106,10 @@ class Formulation(Described, abstract=True):
     """Root coordinates, besides its place, that the clamp holds at the angle zero."""
     joint: ClassVar[tuple[int, ...]] = ()
     """Axes that a GenericJoint of the root with a rigid body holds; none if it has no frame."""
+
+    def __init_subclass__(cls, **rest: Any) -> None:
+        super().__init_subclass__(**rest)
+        cls.name = vars(cls).get("name", cls.__name__)
 
     @property
     def order(self) -> float | None:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from analytic import SpeedTable, spin_up_response
+from analytic import SpeedTable, SpinUp, spin_up_response
 from analytic.arrays import FloatArray
 
 from ..cases import Case
@@ -218,6 +218,8 @@ def _forces(seen: _Seen) -> _Suspects:
 def _ramp(seen: _Seen, ramps: Collection[str], most: float) -> Mistake | None:
     """Return the wrong ramp that explains q while the rotation speeds up."""
     case = seen.case
+    if type(case.rotation) is not SpinUp:
+        return None
     during = seen.time <= min(case.ramp_time, _RAMP_WINDOW)
     time, q, true = seen.time[during], seen.q[during], seen.true[during]
     scale = largest(true)

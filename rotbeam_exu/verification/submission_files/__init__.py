@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import math
 import os
 import re
@@ -10,42 +11,17 @@ from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ...files.results import whole_file
 from ..cases import CASES, Asked, Case
 from ..history import FREE_FOR, free_frequency
-from ..submission import Row, Run, Submission
-from . import entry, runs
-from .faults import (
-    OUTSIDE,
-    Faults,
-    MalformedSubmissionError,
-    below,
-    content_of,
-    files_in,
-    near,
-    printable,
-)
-from .tables import (
-    FAILURE,
-    LEAST_DIGITS,
-    TOO_FEW,
-    Column,
-    asked,
-    digits,
-    not_negative,
-    positive,
-    rounding,
-    rows_of,
-    sheet_of,
-    whole,
-    written,
-)
+from ..submission import Row, Submission
+from . import entry, runs, tables
+from .faults import OUTSIDE, Folder, MalformedSubmissionError, near, printable
 
-_ROUNDING = Column("rounding", not_negative, "rad/s", needed=False)
+_TABLES = {f"{name}.csv": case for name, case in CASES.items() if case.asked is not Asked.HISTORY}
 _VIBRATION = re.compile(r"m([0-9]{1,9})_w([0-9.]{1,9})\.csv")
 """Name of a free vibration's file: elements, and speed [rad/s]."""
 
@@ -84,27 +60,94 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     ...     print(read_submission(folder).rows[0].values)
     (3.731123456,)
     """
-    root, faults = Path(folder), Faults()
-    if not root.is_dir():
-        raise FileNotFoundError(f"there is no folder {root}: name that of the submission")
-    declaration = entry.declaration_of(root, faults)
+    files = Folder(folder)
+    if not files.root.is_dir():
+        raise FileNotFoundError(f"there is no folder {files.root}: name that of the submission")
+    declaration = entry.declaration_of(files)
     rows: list[Row] = []
-    for file, case in _tables().items():
-        if os.path.lexists(root / file):
-            rows += _rows(root, file, case, faults)
-    for file, case in _vibrations(root):
-        rows += _vibration(root, file, case, rows, faults)
-    histories = runs.runs_of(root, faults, only)
-    _strangers(root, faults)
-    if not (faults or rows or histories):
+    for file, case in _TABLES.items():
+        if os.path.lexists(files.root / file):
+            rows += _rows(files, file, case)
+    for file, case in _vibrations(files):
+        rows += _vibration(files, file, case, rows)
+    histories = runs.runs_of(files, only)
+    _find_strangers(files)
+    if not (files.faults or rows or histories):
         said = "there is nothing to judge: hand in L.csv, B.csv, or histories with runs.csv"
-        faults.add(entry.FILE, said)
+        files.add(entry.FILE, said)
     if declaration is None:
-        raise MalformedSubmissionError(faults.told())
+        raise MalformedSubmissionError(files.faults)
     made = Submission(declaration=declaration, rows=tuple(rows), runs=histories)
-    if faults:
-        raise MalformedSubmissionError(faults.told(), made if rows or histories else None)
+    if files.faults:
+        raise MalformedSubmissionError(files.faults, made if rows or histories else None)
     return made
+
+
+def _rows(folder: Folder, file: str, case: Case) -> list[Row]:
+    """Return the rows of a case's table."""
+    columns = tables.columns_of(case)
+    measured: dict[str, list[str]] = {column.name: [] for column in columns if column.measured}
+    found: dict[tuple[object, ...], Row] = {}
+    for line, cells, stated in tables.rows_of(folder, tables.sheet_of(folder, file, columns)):
+        values = tuple(stated.pop(name) for name in measured if name in stated)
+        told = stated.pop("rounding", None)
+        made = Row(case=case.name, **stated, values=values, rounding=(told,) if told else ())
+        if found.setdefault((made.elements, made.place), made) is not made:
+            folder.add(file, "the same row stands above: keep one", line)
+        elif values:
+            for name, written in measured.items():
+                written.append(cells[name])
+    most = {name: tables.digits(written) for name, written in measured.items() if written}
+    if folder.add_all(file, tables.too_short(most)):
+        return []
+    for place, row in found.items():
+        lost = [
+            max(tables.rounding(count, abs(value)), *row.rounding, 0.0)
+            for count, value in zip(most.values(), row.values, strict=False)
+        ]
+        found[place] = replace(row, rounding=tuple(lost) if any(lost) else ())
+    return list(found.values())
+
+
+def _vibrations(folder: Folder) -> list[tuple[str, Case]]:
+    """Return the files of free vibrations, each in place of a row of a table, and their cases."""
+    known = [case for case in CASES.values() if case.quantities == ("linear frequency",)]
+    return [(file, case) for case in known for file in folder.histories(case.name)]
+
+
+def _vibration(folder: Folder, file: str, case: Case, rows: Sequence[Row]) -> list[Row]:
+    """Return the row that a free vibration stands for, if it is right and is not in the table."""
+    place = _VIBRATION.fullmatch(file.partition("/")[2])
+    try:
+        if place is None:
+            remedy = f"write {case.name}/m032_w6.csv, of 32 elements at 6 rad/s"
+            raise ValueError(f"is no name of a free vibration: {remedy}")
+        elements, speed = map(tables.Column.value, tables.columns_of(case)[:2], place.groups())
+        if (case.name, elements, speed) in [(one.case, one.elements, one.speed) for one in rows]:
+            raise ValueError("the same mesh and speed are handed in twice: keep one")
+        held = runs.history_of(folder, file, replace(case, duration=FREE_FOR), math.nan)
+        if held is not None:
+            return [free_frequency(case, elements, speed, held["time"], held["q"])]
+    except ValueError as error:
+        folder.add(file, str(error))
+    return []
+
+
+def _find_strangers(folder: Folder) -> None:
+    """Add tables and folders of histories that belong to no case: misspelled, most likely.
+
+    A link out of the folder may have any name, and is looked into under none.
+    """
+    known = (*_TABLES, runs.FILE)
+    for path in sorted(folder.root.iterdir()):
+        name = printable(path.name)
+        if folder.real(path.name) is None:
+            if path.name in CASES:
+                folder.add(name, OUTSIDE)
+        elif path.is_dir() and path.name not in CASES and any(path.glob("m*_h*.csv")):
+            folder.add(name, f"is the folder of no case; {near(name, CASES, str)}")
+        elif path.suffix.lower() == ".csv" and path.name not in known:
+            folder.add(name, f"is a table that nobody asked for; {near(name, known, str)}")
 
 
 def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
@@ -142,149 +185,47 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     ['L.csv', 'entry.toml']
     """
     root = Path(folder)
-    named = [replace(run, file=runs.file_of(run)) for run in submission.runs]
-    files = [run.file for run in named]
-    twice = sorted({file for file in files if files.count(file) > 1})
+    histories = [replace(run, file=runs.file_of(run)) for run in submission.runs]
+    names = [run.file for run in histories]
+    twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
     texts = {entry.FILE: entry.entry_text(submission.declaration)}
-    for table, case in _tables().items():
-        columns = _columns(case)
-        names = [column.name for column in columns if column.measured]
+    for file, case in _TABLES.items():
+        columns = tables.columns_of(case)
+        measured = [column.name for column in columns if column.measured]
         rows = [
-            vars(row) | dict(zip(names, row.values, strict=False))
+            vars(row) | dict(zip(measured, row.values, strict=False))
             | {"rounding": row.rounding[0] if row.rounding else None}
             for row in submission.rows if row.case == case.name
         ]  # fmt: skip
-        texts |= {table: written(columns, rows)} if rows else {}
-    texts |= {runs.FILE: written(runs.COLUMNS, list(map(vars, named)))} if named else {}
-    for name in (*texts, *(run.case for run in named)):
+        if rows:
+            texts[file] = tables.written(columns, rows)
+    if histories:
+        texts[runs.FILE] = tables.written(tables.RUNS, list(map(vars, histories)))
+    for name in (*texts, *(run.case for run in histories)):
         if (root / name).exists():
             raise FileExistsError(f"{root} holds {name} already: choose another folder")
-    root.mkdir(parents=True, exist_ok=True)
+    for run in histories:
+        if not run.failure:
+            out, numbers = io.StringIO(), np.column_stack([run.time, run.q])
+            header = ",".join(["time", *CASES[run.case].columns])
+            # NumPy's words of a number are its shortest ones that read back the same.
+            np.savetxt(out, numbers, "%s", ",", header=header, comments="")
+            texts[run.file] = out.getvalue()
     for file, text in texts.items():
+        (root / file).parent.mkdir(parents=True, exist_ok=True)
         with whole_file(root / file) as partial:
             partial.write_text(text, encoding="utf-8", newline="\n")
-    for run in named:
-        if not run.failure:
-            _write_history(run, root)
     return root
-
-
-def _write_history(run: Run, folder: Path) -> None:
-    """Write the history of a run into the folder of its case."""
-    held = "time", *CASES[run.case].columns
-    numbers = np.column_stack([run.time, run.q])
-    (folder / run.case).mkdir(exist_ok=True)
-    with (
-        whole_file(folder / run.file) as partial,
-        partial.open("w", encoding="utf-8", newline="\n") as out,
-    ):
-        # NumPy's words of a number are its shortest ones that read back the same.
-        np.savetxt(out, numbers, "%s", ",", header=",".join(held), comments="")
 
 
 def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:
     """Return the SHA-256 of each file that was judged, by its name below the folder."""
-    root = Path(folder)
-    free = (file for file, _ in _vibrations(root))
-    files = [entry.FILE, *_tables(), *free, runs.FILE, *(run.file for run in submission.runs)]
+    files = Folder(folder)
+    free = (file for file, _ in _vibrations(files))
     found = {}
-    for file in files:
+    for file in (entry.FILE, *_TABLES, *free, runs.FILE, *(run.file for run in submission.runs)):
         with suppress(OSError, ValueError):  # not there, or told as a fault
-            found[file] = hashlib.sha256(content_of(root, file)).hexdigest()
+            found[file] = hashlib.sha256(files.content(file)).hexdigest()
     return found
-
-
-def _tables() -> dict[str, Case]:
-    """Return the cases that are handed in as one table, by its file."""
-    return {f"{name}.csv": case for name, case in CASES.items() if case.asked is not Asked.HISTORY}
-
-
-def _columns(case: Case) -> tuple[Column, ...]:
-    """Return the columns of a case's table."""
-    places = [Column("elements", whole), Column("speed", asked(case.speeds), "rad/s")]
-    if case.amplitudes:
-        places.append(Column("amplitude", asked(case.amplitudes)))
-    if case.count > 1:
-        places.append(Column("number", asked(range(1, case.count + 1))))
-    if case.asked is Asked.STEADY:
-        return (*places, *(replace(one, measured=True) for one in runs.TIP_COLUMNS), FAILURE)
-    return (*places, Column("frequency", positive, "rad/s", measured=True), _ROUNDING, FAILURE)
-
-
-def _rows(folder: Path, file: str, case: Case, faults: Faults) -> list[Row]:
-    """Return the rows of a case's table."""
-    columns = _columns(case)
-    sheet = sheet_of(folder, file, columns, faults)
-    names = [column.name for column in columns if column.measured]
-    found: dict[tuple[Any, ...], Row] = {}
-    most = dict.fromkeys(names, 0)
-    for line, cells, stated in rows_of(sheet, faults) if sheet else ():
-        values = tuple(stated.pop(name) for name in names if name in stated)
-        told = stated.pop("rounding", None)
-        row = Row(case=case.name, **stated, values=values, rounding=(told,) if told else ())
-        if (row.elements, row.place) in found:
-            faults.add(file, "the same row stands above: keep one", line)
-            continue
-        found[row.elements, row.place] = row
-        if values:
-            most = {name: max(most[name], digits(cells[name])) for name in names}
-    measured = any(row.values for row in found.values())
-    short = [name for name, count in most.items() if measured and count < LEAST_DIGITS]
-    if short:
-        named = {"frequency": "frequencies are"}.get(short[0], f"column {short[0]!r} is")
-        faults.add(file, f"{named} written to {most[short[0]]} {TOO_FEW}")
-        return []
-    return [_rounded(row, list(most.values())) for row in found.values()]
-
-
-def _rounded(row: Row, most: Sequence[int]) -> Row:
-    """Return a row with the errors of its last digits, or what is told of them."""
-    lost = [rounding(count, abs(value)) for count, value in zip(most, row.values, strict=False)]
-    told = row.rounding or [0.0] * len(lost)
-    errors = tuple(map(max, lost, told))
-    return replace(row, rounding=errors if any(errors) else ())
-
-
-def _vibrations(root: Path) -> list[tuple[str, Case]]:
-    """Return the files of free vibrations, each in place of a row of a table, and their cases."""
-    known = [case for case in CASES.values() if case.quantities == ("linear frequency",)]
-    return [(file, case) for case in known for file in files_in(root, case.name)]
-
-
-def _vibration(root: Path, file: str, case: Case, rows: Sequence[Row], faults: Faults) -> list[Row]:
-    """Return the row that a free vibration stands for, if it is right and is not in the table."""
-    place = _VIBRATION.fullmatch(file.partition("/")[2])
-    try:
-        if place is None:
-            remedy = f"write {case.name}/m032_w6.csv, of 32 elements at 6 rad/s"
-            raise ValueError(f"is no name of a free vibration: {remedy}")
-        elements, speed = whole("elements", place[1]), asked(case.speeds)("speed", place[2])
-        mine = case.name, elements, speed
-        if mine in [(one.case, one.elements, one.speed) for one in rows]:
-            raise ValueError("the same mesh and speed are handed in twice: keep one")
-        lasting = replace(case, duration=FREE_FOR)
-        held = runs.history_of(root, file, lasting, math.nan, faults)
-        if held is not None:
-            return [free_frequency(case, elements, speed, held["time"], held["q"])]
-    except ValueError as error:
-        faults.add(file, str(error))
-    return []
-
-
-def _strangers(root: Path, faults: Faults) -> None:
-    """Add tables and folders of histories that belong to no case: misspelled, most likely.
-
-    A link out of the folder may have any name, and is looked into under none.
-    """
-    tables = (*_tables(), runs.FILE)
-    for path in sorted(root.iterdir()):
-        name = printable(path.name)
-        if below(root, path.name) is None:
-            if path.name in CASES:
-                faults.add(name, OUTSIDE)
-        elif path.is_dir() and path.name not in CASES and any(path.glob("m*_h*.csv")):
-            faults.add(name, f"is the folder of no case; {near(name, CASES, str)}")
-        elif path.suffix.lower() == ".csv" and path.name not in tables:
-            faults.add(name, f"is a table that nobody asked for; {near(name, tables, str)}")

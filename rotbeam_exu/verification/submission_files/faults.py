@@ -42,32 +42,6 @@ class Fault:
         return f"{place}: {self.said}"
 
 
-class Faults:
-    """Faults as they are found; sentences of one kind differ in numbers and quotations only."""
-
-    def __init__(self) -> None:
-        self._alike: dict[tuple[str, str], list[Fault]] = {}
-
-    def __bool__(self) -> bool:
-        return bool(self._alike)
-
-    def add(self, file: str, said: str, line: int | None = None) -> None:
-        """Keep a fault."""
-        fault = Fault(file=file, said=said, line=line)
-        self._alike.setdefault((_VARIES.sub("#", said), file), []).append(fault)
-
-    def of(self, file: str) -> bool:
-        """Return whether a file has one."""
-        return any(file == other for _, other in self._alike)
-
-    def told(self) -> tuple[Fault, ...]:
-        """Return the first of each kind in a file, in the order found, with the count of others."""
-        return tuple(
-            replace(first, said=first.said + several(1 + len(others)))
-            for first, *others in self._alike.values()
-        )
-
-
 class MalformedSubmissionError(ValueError):
     """A submission whose files are to be mended.
 
@@ -84,6 +58,81 @@ class MalformedSubmissionError(ValueError):
         super().__init__("\n".join(map(str, self.faults)))
 
 
+class Folder:
+    """The folder of a submission, and the faults that are found in it."""
+
+    def __init__(self, root: str | os.PathLike[str]) -> None:
+        self.root = Path(root)
+        self._alike: dict[tuple[str, str], list[Fault]] = {}
+
+    def add(self, file: str, said: str, line: int | None = None) -> None:
+        """Keep a fault; sentences of one kind differ in numbers and quotations only."""
+        fault = Fault(file=file, said=said, line=line)
+        self._alike.setdefault((_VARIES.sub("#", said), file), []).append(fault)
+
+    def add_all(self, file: str, found: Iterable[tuple[str, int | None]]) -> bool:
+        """Keep faults with their lines, and return whether there are any."""
+        kept = list(found)
+        for said, line in kept:
+            self.add(file, said, line)
+        return bool(kept)
+
+    @property
+    def faults(self) -> tuple[Fault, ...]:
+        """The first of each kind in a file, in the order found, with the count of others."""
+        return tuple(
+            replace(first, said=first.said + several(1 + len(others)))
+            for first, *others in self._alike.values()
+        )
+
+    def is_faulty(self, file: str) -> bool:
+        """Return whether a file has a fault."""
+        return any(file == other for _, other in self._alike)
+
+    def real(self, name: str) -> Path | None:
+        """Return the place to which links lead; None if it is not below the folder."""
+        path = Path(os.path.realpath(self.root / name))
+        return path if path.is_relative_to(os.path.realpath(self.root)) else None
+
+    def histories(self, name: str) -> list[str]:
+        """Return the CSV files of a folder below this one, as S1/m032_h1e-3.csv."""
+        paths = sorted((self.root / name).glob("*.csv")) if self.real(name) else []
+        return [f"{name}/{printable(path.name)}" for path in paths]
+
+    def content(self, file: str) -> bytes:
+        """Return the bytes of a regular file; OSError or ValueError with what keeps it unread."""
+        path = self.real(file)
+        if path is None:
+            raise ValueError(OUTSIDE)
+        if path.exists() and not path.is_file():
+            raise ValueError("is a folder, a pipe or a device: put a file in its place")
+        with path.open("rb") as opened:
+            content = opened.read(LARGEST + 1)
+        if len(content) > LARGEST:
+            many = f"has more than {LARGEST:,} bytes"
+            raise ValueError(f"{many}: hand in what the kit asks for, and sample less often")
+        return content
+
+    def text(self, file: str) -> str | None:
+        """Return the text of a file, its lines ended by LF; None, and why, where it is no text."""
+        try:
+            # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
+            text = self.content(file).decode("utf-8-sig")
+            if "\0" not in text:
+                return text.replace("\r\n", "\n").replace("\r", "\n")
+            said = "is not text (it holds zero bytes): write it as UTF-8"
+        except UnicodeDecodeError as error:
+            said = f"is not text (byte {error.start} is no UTF-8): write it as UTF-8"
+        except FileNotFoundError:
+            said = "there is no such file"
+        except OSError as error:
+            said = f"cannot be read: {error.strerror or error}"
+        except ValueError as error:
+            said = str(error)
+        self.add(file, said)
+        return None
+
+
 def several(count: int) -> str:
     """Return the end of a sentence on the first of `count` places that have the same fault."""
     return "" if count == 1 else f" (and so in {count - 1:,} more)"
@@ -98,73 +147,12 @@ def shown(text: str) -> str:
 def near(name: str, known: Iterable[str], told: Callable[[str], str] = repr) -> str:
     """Return the end of a sentence on an unknown name: the most similar known name, or all."""
     alike = {one.lower(): one for one in known}
-    close = difflib.get_close_matches(name.lower(), alike, n=1)
-    return (
-        f"did you mean {told(alike[close[0]])}?"
-        if close
-        else f"known are {', '.join(alike.values())}"
-    )
+    for close in difflib.get_close_matches(name.lower(), alike, n=1):
+        return f"did you mean {told(alike[close])}?"
+    return f"known are {', '.join(alike.values())}"
 
 
 def printable(name: str) -> str:
     """Return the name of a file, bytes that are no letters and the like replaced."""
     text = name.encode("utf-8", "replace").decode()
     return text if text.isprintable() else ascii(text)[1:-1]
-
-
-def below(folder: Path, file: str) -> Path | None:
-    """Return the place below the folder to which links lead; None if they lead out."""
-    root, real = os.path.realpath(folder), Path(os.path.realpath(folder / file))
-    return real.relative_to(root) if real.is_relative_to(root) else None
-
-
-def files_in(folder: Path, name: str) -> list[str]:
-    """Return the CSV files of a folder below the folder, as S1/m032_h1e-3.csv."""
-    paths = sorted((folder / name).glob("*.csv")) if below(folder, name) else []
-    return [f"{name}/{printable(path.name)}" for path in paths]
-
-
-def content_of(folder: Path, file: str) -> bytes:
-    """Return the bytes of a regular file below a folder.
-
-    Raises
-    ------
-    ValueError
-        If it is none, or too large; the sentence goes on after the file's name.
-    OSError
-        If it cannot be read.
-    """
-    place = below(folder, file)
-    if place is None:
-        raise ValueError(OUTSIDE)
-    path = folder / place
-    if path.exists() and not path.is_file():
-        raise ValueError("is a folder, a pipe or a device: put a file in its place")
-    with path.open("rb") as opened:
-        content = opened.read(LARGEST + 1)
-    if len(content) > LARGEST:
-        raise ValueError(
-            f"has more than {LARGEST:,} bytes: hand in what the kit asks for, and sample less often"
-        )
-    return content
-
-
-def text_of(folder: Path, file: str, faults: Faults) -> str | None:
-    """Return the text of a file, its lines ended by LF; None, and why, where it is no text."""
-    try:
-        # Some editors begin a file with a byte order mark, which "utf-8-sig" skips.
-        text = content_of(folder, file).decode("utf-8-sig")
-        if "\0" in text:
-            raise ValueError("is not text (it holds zero bytes): write it as UTF-8")
-    except UnicodeDecodeError as error:
-        said = f"is not text (byte {error.start} is no UTF-8): write it as UTF-8"
-    except FileNotFoundError:
-        said = "there is no such file"
-    except OSError as error:
-        said = f"cannot be read: {error.strerror or error}"
-    except ValueError as error:
-        said = str(error)
-    else:
-        return text.replace("\r\n", "\n").replace("\r", "\n")
-    faults.add(file, said)
-    return None

@@ -1,7 +1,6 @@
-"""CSV as a submission has it: one header row, commas, C floats, lines of # that are not read.
+"""The tables of a submission: their columns, and CSV both ways.
 
-A table is described by its columns, of a `Kind` each. `Sheet` is its lines, `rows_of` its values,
-`written` writes it. Histories, which are long, are read at once by `runs` where they are right.
+CSV has one header row, commas, C floats, and lines of # that are not read.
 """
 
 from __future__ import annotations
@@ -13,12 +12,12 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .faults import Faults, near, shown, text_of
+from ..cases import CASES, TIP, Asked, Case
+from .faults import Folder, near, shown
 
 LONGEST_LINE = 10_000
 """Letters of a line: beyond them is no row and no sentence."""
@@ -27,8 +26,11 @@ DIGITS, LEAST_DIGITS = 8, 5
 """Digits of a number that lose nothing, and that it has at least: four in the time alone cost
 9.5e-3 of q(t). Between them the last digit is an error, which widens the floor."""
 
-TOO_FEW = f"digits, at least {LEAST_DIGITS} are needed and {DIGITS} lose nothing: write %.10g"
-"""End of the sentence on numbers that are too short."""
+HISTORIES = [name for name, case in CASES.items() if case.asked is Asked.HISTORY]
+_HISTORY = re.compile(
+    r"([^/]*)/m([0-9]{1,9})_([ht])((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv"
+)
+"""Name of a history's file: case, elements, and step [s] or tolerance."""
 
 _NUMBER = re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _FORTRAN = re.compile(r"[-+]?[0-9]*(\.[0-9]*)?[dD][-+]?[0-9]+")
@@ -38,13 +40,49 @@ _SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
 _SAME = 1e-6
 """Relative distance within which a speed or an amplitude is taken for a requested one."""
 
-Kind = Callable[[str, str], Any]
-"""From a column's name and a cell to its value; ValueError with the sentence on a faulty cell."""
+_RANGES: dict[str, Callable[[float], bool]] = {
+    "be a whole number of at least 1": lambda value: value >= 1.0 and value.is_integer(),
+    "be positive": lambda value: value > 0.0,
+    "not be negative": lambda value: value >= 0.0,
+}
+WHOLE, POSITIVE, NOT_NEGATIVE = _RANGES
 
 
-def text(_name: str, cell: str) -> str:
-    """Return a text as it is."""
-    return cell
+@dataclass(frozen=True)
+class Column:
+    """A column of numbers, in its unit, range, and among those asked for; or one of text.
+
+    Each table has the needed columns; cells of the others may be empty. Each row has the measured
+    columns, but for rows that tell a failure.
+    """
+
+    name: str
+    unit: str = ""
+    must: str = ""
+    among: Sequence[float] = ()
+    text: Callable[[str], Any] | None = None
+    needed: bool = True
+    measured: bool = False
+
+    @property
+    def field(self) -> str:
+        """Attribute that is read: the name without its unit."""
+        return self.name.removesuffix("_s")
+
+    def value(self, cell: str) -> Any:
+        """Return what a cell says; ValueError with the sentence on a faulty one."""
+        if self.text:
+            return self.text(cell)
+        value = number(self.name, cell)
+        if self.must and not _RANGES[self.must](value):
+            raise ValueError(f"{self.name} must {self.must}, got {cell}")
+        if self.among:
+            close = min(self.among, key=lambda known: abs(known - value))
+            if abs(close - value) > _SAME * (abs(close) or 1.0):
+                known = ", ".join(f"{one:g}" for one in self.among)
+                raise ValueError(f"{self.name} {value:g} is not asked for: hand in {known}")
+            return close
+        return int(value) if self.must == WHOLE else value
 
 
 def number(name: str, cell: str) -> float:
@@ -62,65 +100,45 @@ def number(name: str, cell: str) -> float:
     raise ValueError(f"{name}: {shown(cell)} {why}")
 
 
-def whole(name: str, cell: str) -> int:
-    """Return a whole number of at least 1."""
-    value = number(name, cell)
-    if not (value >= 1.0 and value.is_integer()):
-        raise ValueError(f"{name} must be a whole number of at least 1, got {cell}")
-    return int(value)
+def _history(cell: str) -> re.Match[str]:
+    case, match = cell.partition("/")[0], _HISTORY.fullmatch(cell)
+    if case not in HISTORIES:
+        among = f"known are {', '.join(HISTORIES)}"
+        raise ValueError(f"{shown(case)} is no case with a history; {among}")
+    if match is None:
+        remedy = f"write {case}/m032_h1e-3.csv, or _t1e-6 of a tolerance"
+        raise ValueError(f"{shown(cell)} is no name of a history: {remedy}")
+    return match
 
 
-def positive(name: str, cell: str) -> float:
-    """Return a number above zero."""
-    value = number(name, cell)
-    if value <= 0.0:
-        raise ValueError(f"{name} must be positive, got {cell}")
-    return value
+ELEMENTS, FAILURE = Column("elements", must=WHOLE), Column("failure", text=str, needed=False)
+RUNS = (
+    Column("file", text=_history), ELEMENTS,
+    Column("step", "s", POSITIVE, needed=False), Column("tolerance", must=POSITIVE, needed=False),
+    Column("dof", must=WHOLE, needed=False), Column("wall_s", "s", NOT_NEGATIVE, needed=False),
+    Column("cpu_s", "s", NOT_NEGATIVE, needed=False),
+    FAILURE, Column("remark", text=str, needed=False),
+)  # fmt: skip
+"""Columns of runs.csv."""
+
+_TIME = Column("time", "s")
+_TIP = tuple(Column(name, "rad" if name == "twist" else "m", measured=True) for name in TIP)
+IN_SPACE = (_TIME, *_TIP)
+IN_PLANE = (_TIME, Column("q", "m"), Column("q_dot", "m/s", needed=False, measured=True))
+"""Columns of histories."""
 
 
-def not_negative(name: str, cell: str) -> float:
-    """Return a number of zero or more."""
-    value = number(name, cell)
-    if value < 0.0:
-        raise ValueError(f"{name} must not be negative, got {cell}")
-    return value
-
-
-def asked(values: Sequence[float]) -> Kind:
-    """Return the kind of numbers that are asked for; one close to it stands for such a number."""
-
-    def read(name: str, cell: str) -> float:
-        value = number(name, cell)
-        close = min(values, key=lambda known: abs(known - value))
-        if abs(close - value) > _SAME * (abs(close) or 1.0):
-            known = ", ".join(f"{one:g}" for one in values)
-            raise ValueError(f"{name} {value:g} is not asked for: hand in {known}")
-        return close
-
-    return read
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column of a table, whose header may state its unit.
-
-    Each table has the needed columns; cells of the others may be empty. Each row has the measured
-    columns, but for rows that tell a failure.
-    """
-
-    name: str
-    kind: Kind = number
-    unit: str = ""
-    needed: bool = True
-    measured: bool = False
-
-    @property
-    def field(self) -> str:
-        """Attribute that is read: the name without its unit."""
-        return self.name.removesuffix("_s")
-
-
-FAILURE = Column("failure", text, needed=False)
+def columns_of(case: Case) -> tuple[Column, ...]:
+    """Return the columns of a case that is handed in as one table."""
+    places = [ELEMENTS, Column("speed", "rad/s", among=case.speeds)]
+    if case.amplitudes:
+        places.append(Column("amplitude", among=case.amplitudes))
+    if case.count > 1:
+        places.append(Column("number", among=range(1, case.count + 1)))
+    if case.asked is Asked.STEADY:
+        return (*places, *_TIP, FAILURE)
+    frequency = Column("frequency", "rad/s", POSITIVE, measured=True)
+    return (*places, frequency, Column("rounding", "rad/s", NOT_NEGATIVE, needed=False), FAILURE)
 
 
 class Sheet(NamedTuple):
@@ -132,113 +150,123 @@ class Sheet(NamedTuple):
     lines: list[int]
 
 
-def sheet_of(folder: Path, file: str, columns: Sequence[Column], faults: Faults) -> Sheet | None:
-    """Return the rows of a table; None, and why, where it has no header that can be used."""
-    content = text_of(folder, file, faults)
-    if content is None:
-        return None
+def sheet_of(folder: Folder, file: str, columns: Sequence[Column]) -> Sheet:
+    """Return a table, without rows where it cannot be used."""
+    text = folder.text(file)
     numbered = [
         (line, row)
-        for line, row in enumerate(content.split("\n"), 1)
-        if row and not row.isspace() and not row.lstrip().startswith("#")
+        for line, row in enumerate((text or "").split("\n"), 1)
+        if row.lstrip()[:1] not in ("", "#")
     ]
-    wanted = ",".join(column.name for column in columns if column.needed)
-    if not numbered:
-        faults.add(file, f"is empty: begin with the header {wanted}")
-        return None
-    for line, row in numbered:
-        if len(row) > LONGEST_LINE:
-            many = f"has {len(row):,} letters, more than {LONGEST_LINE:,}"
-            faults.add(file, f"{many}: keep to {wanted}", line)
-            return None
-    (first, title), *rest = numbered
-    wrong = _wrong_header(title, columns, wanted)
-    if not (wrong or rest):
-        wrong = ["has a header and no rows below it"]
-    for said in wrong:
-        faults.add(file, said, first)
-    if wrong:
-        return None
+    if text is None or folder.add_all(file, _wrong(numbered, columns)):
+        return Sheet(file, [], [], [])
     known = {column.name: column for column in columns}
-    header = [known[_cell_of_header(cell)[0]] for cell in title.split(",")]
-    return Sheet(file, header, [row for _, row in rest], [line for line, _ in rest])
+    (first, header), *rest = numbered
+    if not rest:
+        folder.add(file, "has a header and no rows below it", first)
+    held = [known[_title(cell)[0]] for cell in header.split(",")]
+    return Sheet(file, held, [row for _, row in rest], [line for line, _ in rest])
 
 
-def _cell_of_header(cell: str) -> tuple[str, str]:
-    """Return the name and the unit, if there is one in brackets."""
+def _title(cell: str) -> tuple[str, str]:
+    """Return the name in a cell of the header and the unit, if there is one in brackets."""
     match = _HEADER.fullmatch(cell.strip().strip('"').strip())
     return (match["name"], (match["unit"] or "").strip()) if match else (cell, "")
 
 
-def _wrong_header(title: str, columns: Sequence[Column], wanted: str) -> list[str]:
-    """Return the fault of a header row."""
-    if "," not in title and "," in wanted:
-        other = [f" by {name}" for mark, name in _SEPARATORS.items() if mark in title.strip()]
-        split = f"is split{other[0]}" if other else f"is {shown(title.strip())}"
-        return [f"the header {split}: separate the columns by commas, {wanted}"]
-    cells = [_cell_of_header(cell) for cell in title.split(",")]
-    names, units = [name for name, _ in cells], {column.name: column.unit for column in columns}
+def _wrong(
+    numbered: Sequence[tuple[int, str]], columns: Sequence[Column]
+) -> Iterator[tuple[str, int | None]]:
+    """Yield what keeps lines from being a table of some columns, and where."""
+    wanted = ",".join(column.name for column in columns if column.needed)
+    if not numbered:
+        yield f"is empty: begin with the header {wanted}", None
+        return
+    for line, row in numbered:
+        if len(row) > LONGEST_LINE:
+            many = f"has {len(row):,} letters, more than {LONGEST_LINE:,}"
+            yield f"{many}: keep to {wanted}", line
+            return
+    first, header = numbered[0]
+    if "," not in header and "," in wanted:
+        other = [f" by {name}" for mark, name in _SEPARATORS.items() if mark in header.strip()]
+        split = f"is split{other[0]}" if other else f"is {shown(header.strip())}"
+        yield f"the header {split}: separate the columns by commas, {wanted}", first
+        return
+    titles = [_title(cell) for cell in header.split(",")]
+    names, units = [name for name, _ in titles], {column.name: column.unit for column in columns}
     if all(_NUMBER.fullmatch(name) for name in names):
-        return [f"there is no header, the first row holds numbers: begin with {wanted}"]
-    found = []
-    for name, unit in cells:
+        yield f"there is no header, the first row holds numbers: begin with {wanted}", first
+        return
+    for name, unit in titles:
         if name not in units:
-            found.append(f"unknown column {shown(name)}; {near(name, units)}")
+            yield f"unknown column {shown(name)}; {near(name, units)}", first
         elif unit and unit != units[name]:
             due = f"[{units[name]}]" if units[name] else "no unit"
-            found.append(f"column {name!r} is in {shown(unit)}: write it in {due}")
+            yield f"column {name!r} is in {shown(unit)}: write it in {due}", first
     missing = [name for name in wanted.split(",") if name not in names]
     if missing:
-        found.append(f"there is no column {', '.join(missing)}: the header is {wanted}")
+        yield f"there is no column {', '.join(missing)}: the header is {wanted}", first
     twice = [name for name, count in Counter(names).items() if count > 1]
     if twice:
-        found.append(f"column {shown(twice[0])} occurs twice: keep one")
-    return found
+        yield f"column {shown(twice[0])} occurs twice: keep one", first
 
 
-def rows_of(sheet: Sheet, faults: Faults) -> Iterator[tuple[int, dict[str, str], dict[str, Any]]]:
+def rows_of(folder: Folder, sheet: Sheet) -> Iterator[tuple[int, dict[str, str], dict[str, Any]]]:
     """Yield line, cells by column and values by field of each row that is right by itself.
 
     Values that are not told are left out.
     """
     for line, row in zip(sheet.lines, sheet.rows, strict=True):
         try:
-            cells = next(csv.reader([row], strict=True, skipinitialspace=True))
+            written = next(csv.reader([row], strict=True, skipinitialspace=True))
         except csv.Error as error:
-            faults.add(sheet.file, f"is no row of CSV: {error}", line)
+            folder.add(sheet.file, f"is no row of CSV: {error}", line)
             continue
-        if len(cells) != len(sheet.columns):
-            has = f"has {len(cells)} cell{'s' * (len(cells) > 1)}, the header {len(sheet.columns)}"
+        if len(written) != len(sheet.columns):
+            has = f"has {len(written)} cell{'s' * (len(written) > 1)}"
             remedy = "write the row whole, with commas between cells and decimal points"
-            faults.add(sheet.file, f"{has}: {remedy}", line)
+            folder.add(sheet.file, f"{has}, the header {len(sheet.columns)}: {remedy}", line)
             continue
-        pairs = list(zip(sheet.columns, map(str.strip, cells), strict=True))
-        failed = any(cell and column is FAILURE for column, cell in pairs)
-        values, right = {}, True
-        for column, cell in pairs:
+        cells = {column: cell.strip() for column, cell in zip(sheet.columns, written, strict=True)}
+        values, right, failed = {}, True, bool(cells.get(FAILURE))
+        for column, cell in cells.items():
             if failed if column.measured else not (cell or column.needed):
                 continue
             try:
-                values[column.field] = column.kind(column.name, cell)
+                values[column.field] = column.value(cell)
             except ValueError as error:
-                faults.add(sheet.file, str(error), line)
+                folder.add(sheet.file, str(error), line)
                 right = False
         if right:
-            yield line, {column.name: cell for column, cell in pairs}, values
+            yield line, {column.name: cell for column, cell in cells.items()}, values
 
 
-def digits(cell: str) -> int:
-    """Return the significant digits that are written."""
-    mantissa = re.split("[eE]", cell.strip(' "'))[0].lstrip("+-").replace(".", "")
-    return len(mantissa.lstrip("0"))
+def digits(cells: Iterable[str]) -> int:
+    """Return to how many digits cells are written at most; DIGITS stands for more."""
+    most = 0
+    for cell in cells:
+        mantissa = re.split("[eE]", cell.strip(' "'))[0].lstrip("+-").replace(".", "")
+        most = max(most, len(mantissa.lstrip("0")))
+        if most >= DIGITS:
+            return DIGITS
+    return most
+
+
+def too_short(most: Mapping[str, int]) -> Iterator[tuple[str, None]]:
+    """Yield the sentences on columns that are written to too few digits."""
+    for name, count in most.items():
+        if count < LEAST_DIGITS:
+            due = f"at least {LEAST_DIGITS} are needed and {DIGITS} lose nothing: write %.10g"
+            yield f"column {name!r} is written to {count} digits, {due}", None
 
 
 def rounding(most: int, largest: float) -> float:
-    """Return by how much numbers are off that are written to `most` digits; 0 of DIGITS or more.
+    """Return by how much numbers are off that are written to `most` digits; 0 of DIGITS.
 
     Half a unit of the last decimal of the largest, which %g and %f have alike.
     """
-    if most >= DIGITS or not largest:
+    if most == DIGITS or not largest:
         return 0.0
     return 0.5 * float(10.0 ** (math.floor(math.log10(largest)) + 1 - most))
 
@@ -253,10 +281,10 @@ def written(columns: Iterable[Column], rows: Sequence[Mapping[str, object]]) -> 
     return out.getvalue()
 
 
-def _cell(cell: object) -> str:
+def _cell(value: object) -> str:
     """Return a cell, empty for an unknown value; a sentence has one line."""
-    if cell is None or (isinstance(cell, float) and math.isnan(cell)):
+    if value is None or (isinstance(value, float) and math.isnan(value)):
         return ""
-    if isinstance(cell, str):
-        return " ".join(cell.split())
-    return repr(cell.item() if isinstance(cell, np.generic) else cell)
+    if isinstance(value, str):
+        return " ".join(value.split())
+    return repr(value.item() if isinstance(value, np.generic) else value)

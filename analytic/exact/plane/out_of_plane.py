@@ -23,16 +23,15 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import FloatArray
+from ...arrays import FloatArray, evaluated
 from ...beam import AnyBlade, require_out_of_plane
 from ...lazily import linalg
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
-from ...profiles import evaluated
 from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import BERNOULLI_EULER, Theory
-from .continuum import Continuum
-from .steady import SteadyBeam
+from ..beam.continuum import Continuum
+from ..beam.steady import SteadyBeam
 
 
 @lru_cache(maxsize=32)
@@ -57,11 +56,13 @@ class Space:
         # At r = 1 the twist follows κβ at no cost, whatever g. Its inertia would split the double
         # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
         self.twists = bool(np.isfinite(self.g)) and section.bending_ratio != 1.0
-        inert = theory.trapeze or theory.rotary_inertia
-        if self.twists and (section.polar_inertia == 0.0 or not inert):
+        told = blade.section.rotary_inertia
+        self._told = told is not None
+        inert = told != 0.0 if self._told else theory.trapeze or theory.rotary_inertia
+        if self.twists and not inert:
             raise ValueError(
                 "motion out of the plane is not known for a twist without inertia: take a theory "
-                "with rotary_inertia=True, and polar_inertia above zero"
+                "with rotary_inertia=True, or give the section a rotary_inertia above zero"
             )
         self.size = (1 + self.twists) * self.functions
 
@@ -91,11 +92,11 @@ class Space:
 
     def _polar(self, x: FloatArray) -> FloatArray:
         """Return j at `x`, over m0 L²."""
-        unit, blade, section = self.unit, self.blade, self.section
+        unit, both = self.unit, 1.0 + self.section.bending_ratio
+        if self._told:
+            return both * evaluated(unit.rotary, x)
         own = evaluated(unit.mass, x) * evaluated(unit.bending, x) / evaluated(unit.axial, x)
-        if section.polar_inertia is None:
-            return blade.slenderness * (1.0 + section.bending_ratio) * own
-        return section.polar_inertia / (blade.mass_per_length * blade.length**2) * own
+        return self.blade.slenderness * both * own
 
     def stiffness(
         self, planar: Any, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, *drive: Any
