@@ -40,10 +40,10 @@ class Chain:
     nodes : tuple of NodeIndex
         Nodes from the clamped root to the free tip.
     bodies : tuple of ObjectIndex
-        Objects that report their elastic energy as their potential energy, where they do.
+        Elements of Exudyn, which report their elastic energy as their potential energy.
     elastic_energy : callable, optional
         The elastic energy [J], (samples,), from the coordinates of the nodes, reference included,
-        (samples, nodes, n), where Exudyn's objects do not report it.
+        (samples, nodes, n), of bodies of our own.
     turning : tuple of TurningNode
         Nodes whose slopes, coordinates 2 and 3, get an inertia: no constant mass matrix holds it,
         and `drive` adds it.
@@ -300,6 +300,13 @@ def cells(count: int, s: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
     """Return in which of equal cells places from 0 to 1 are, and where inside, from 0 to 1."""
     cell = np.minimum((count * s).astype(int), count - 1)
     return cell, count * s - cell
+
+
+def rate_of(
+    strain: Callable[[Any], Any], coordinates: FloatArray, velocities: FloatArray
+) -> FloatArray:
+    """Return the rate of an analytic function of coordinates, to round-off: an imaginary step."""
+    return np.asarray(strain(coordinates + 1e-30j * velocities).imag / 1e-30)
 
 
 class Sheared:

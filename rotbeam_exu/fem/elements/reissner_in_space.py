@@ -101,17 +101,17 @@ class SpaceExact(Sheared, FrameNodes):
         nodes = tuple(
             mbs.AddNode(items.NodeRigidBodyEP(referenceCoordinates=one)) for one in row.reference
         )
+        bodies = []
         for i, pair in enumerate(pairwise(nodes)):
             data: Any = exudyn.BeamSection()
             data.stiffnessMatrix = np.diag(row.stiffness[i])
             data.inertia = np.diag(row.inertia[i])
             data.massPerLength = row.mass[i]
-            mbs.AddObject(
-                items.ObjectBeamGeometricallyExact(
-                    nodeNumbers=list(pair), length=row.length, sectionData=data
-                )
+            body = items.ObjectBeamGeometricallyExact(
+                nodeNumbers=list(pair), length=row.length, sectionData=data
             )
-        return Chain(nodes=nodes, elastic_energy=row.energy)
+            bodies.append(mbs.AddObject(body))
+        return Chain(nodes=nodes, bodies=tuple(bodies))
 
     def add_spin_forces(
         self, mbs: exudyn.MainSystem, chain: Chain, beam: AnyBlade, rotation: Rotation
@@ -142,7 +142,7 @@ class SpaceExact(Sheared, FrameNodes):
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """Strain along the normal of the sections, of each element."""
-        return _Row(self, beam, coordinates.shape[-2] - 1).strains(coordinates)[..., 0]
+        return _Row(self, beam, coordinates.shape[-2] - 1).stretch(coordinates)
 
     def energy_and_momentum(
         self, beam: AnyBlade, mass: Any, turning: Any, coordinates: FloatArray,
@@ -200,19 +200,14 @@ class _Row:
         means = weights @ np.diagonal(about).reshape(elements, -1, 3)
         self.inertia = blade.mass_per_length * blade.length**2 * means
         self.add = Assembly(elements, inner=1, per_node=7)
-        self._unloaded = self._screws(self.reference)
+        self._unloaded = self._pitches(self.reference)
 
-    def strains(self, coordinates: FloatArray) -> FloatArray:
-        """Return the strains (..., elements, 6): stretch, shears, torsion, curvatures."""
-        return np.asarray((self._screws(coordinates) - self._unloaded) / self.length)
+    def stretch(self, coordinates: FloatArray) -> FloatArray:
+        """Return the axial strain, (..., elements)."""
+        return (self._pitches(coordinates) - self._unloaded) / self.length
 
-    def energy(self, coordinates: FloatArray) -> FloatArray:
-        """Return the elastic energy (samples,) of coordinates (samples, nodes, 7)."""
-        squares = self.strains(coordinates) ** 2
-        return np.asarray(0.5 * self.length * np.sum(self.stiffness * squares, axis=(1, 2)))
-
-    def _screws(self, coordinates: FloatArray) -> FloatArray:
-        """Return the logarithms in SE(3) of the motions from node to node, (..., elements, 6)."""
+    def _pitches(self, coordinates: FloatArray) -> FloatArray:
+        """Return the first of the logarithms in SE(3) of the motions from node to node."""
         r, turn = coordinates[..., :3], directors(coordinates[..., 3:])
         to_local = np.swapaxes(turn[..., :-1, :, :], -1, -2)
         d = (to_local @ np.diff(r, axis=-2)[..., None])[..., 0]
@@ -221,7 +216,7 @@ class _Row:
         # u = d - ψ×d/2 + [1 - (ψ/2) cot(ψ/2)]/ψ² ψ×(ψ×d)
         across = np.cross(psi, d)
         bent = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / angle**2
-        return np.concatenate((d - 0.5 * across + bent * np.cross(psi, across), psi), axis=-1)
+        return np.asarray((d - 0.5 * across + bent * np.cross(psi, across))[..., 0])
 
     def turning(
         self, e: FloatArray, rates: FloatArray
