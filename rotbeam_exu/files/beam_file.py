@@ -19,7 +19,6 @@ from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 
 from . import beam_tables as tables
-from .beam_tables import Table, require_keys
 from .stations_file import blade_of_csv
 
 _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
@@ -83,19 +82,15 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     >>> print(f"{beam.omega_0:.4f} rad/s")
     2.9100 rad/s
     """
-    source = Path(path)
-    document = _read_toml(source)
-    for others in ("motion", "numerics", "loads"):  # of a run, which `load_run_file` reads
-        document.pop(others, None)
-    return _beam_from(document, source)
+    return load_run_file(path, needs_beam=True).beam
 
 
-def load_run_file(path: str | os.PathLike[str]) -> RunFile:
+def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> RunFile:
     """Read [beam] or [blade], as `load_beam` does, and the tables [motion], [numerics], [[loads]].
 
     [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
     duration [s] and frame; each [[loads]] the kind of a load and its fields. A file with one of
-    these may do without a beam.
+    these may do without a beam, unless it `needs_beam`.
 
     Raises
     ------
@@ -107,41 +102,36 @@ def load_run_file(path: str | os.PathLike[str]) -> RunFile:
     """
     source = Path(path)
     document = _read_toml(source)
-    run: dict[str, Any] = {
-        name: _checked(document.pop(name), f"[{name}]", source, keys)
-        for name, keys in (("motion", tables.MOTION), ("numerics", tables.NUMERICS))
-        if name in document
-    }
-    if "loads" in document:
-        run["loads"] = _loads(document.pop("loads"), source)
-    beam = _beam_from(document, source) if document or not run else Beam.reference()
-    return RunFile(beam=beam, **run)
-
-
-def _loads(told: Any, source: Path) -> list[Load]:
-    if not (isinstance(told, list) and all(isinstance(one, dict) for one in told)):
-        raise ValueError(f'{source}: write each [[loads]] as a table, with kind = "Gravity"')
     try:
-        return [from_description(one, Load) for one in told]
+        if "beam" in document and "blade" in document:
+            raise ValueError("it has both [beam] and [blade]: keep one")
+        tables.require_keys(document)
+        if "blade" in document:
+            beam = _blade(document["blade"], source.parent)
+        elif "beam" in document:
+            beam = _beam(document["beam"])
+        elif document and not needs_beam:
+            beam = Beam.reference()
+        else:
+            raise ValueError(f"it has no table [beam] with {', '.join(tables.BEAM.required)}")
+        run = {
+            name: {key: _number(key, value) for key, value in document[name].items()}
+            for name in ("motion", "numerics")
+            if name in document
+        }
+        loads = [from_description(one, Load) for one in document.get("loads", [])]
     except (OverflowError, TypeError, ValueError) as error:
-        raise ValueError(f"{source}: [[loads]]: {error}") from error
+        raise ValueError(f"{source}: {error}") from error
+    return RunFile(beam=beam, loads=loads, **run)
 
 
-def _checked(table: Any, title: str, source: Path, keys: Table) -> dict[str, Any]:
-    require_keys(table, title, source, keys)
-    try:
-        return {name: _number(name, value, keys.optional[name]) for name, value in table.items()}
-    except (OverflowError, TypeError, ValueError) as error:
-        raise ValueError(f"{source}: {title}: {error}") from error
-
-
-def _number(name: str, value: object, kind: type) -> Any:
+def _number(name: str, value: object) -> Any:
     """Return a number or a name of [motion] and [numerics]; but for the speed, times [s]."""
-    if kind is str:
+    if name in ("element", "frame"):
         if not isinstance(value, str):
             raise TypeError(f"{name} must be a name in quotes, got {value!r}")
         return value
-    if kind is int:
+    if name == "elements":
         return whole_number(name, value)
     return rotation_speed(value) if name == "omega" else positive(name, value, "s")
 
@@ -159,101 +149,50 @@ def _read_toml(source: Path) -> dict[str, Any]:
         raise ValueError(f"{source} is not valid TOML: {error}{hint}") from error
 
 
-def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
-    """Return the beam of a document, as `load_beam` does; `source` is named in its errors."""
-    for name in document:
-        if name not in ("beam", "blade"):
-            raise ValueError(
-                f"{source}: unknown table or key {name!r}; the beam is in [beam], a blade in "
-                "[blade], what a run needs in [motion], [numerics] and [[loads]]"
-            )
-    if len(document) == 2:
-        raise ValueError(f"{source} has both [beam] and [blade]: keep one")
-    kind = "blade" if "blade" in document else "beam"
-    table = document.get(kind)
-    if not isinstance(table, dict):
-        raise ValueError(f"{source} has no table [beam] with {', '.join(tables.BEAM.required)}")
-    try:
-        return _blade(table, source) if kind == "blade" else _beam(table, source)
-    except (OverflowError, TypeError, ValueError) as error:
-        text = str(error)
-        raise ValueError(text if text.startswith(str(source)) else f"{source}: {text}") from error
-
-
-def _beam(table: dict[str, Any], source: Path) -> AnyBlade:
-    by_stiffness = bool(set(table) & {*tables.SECTION.required})
-    require_keys(table, "[beam]", source, tables.BEAM_BY_STIFFNESS if by_stiffness else tables.BEAM)
-    if by_stiffness:
+def _beam(table: dict[str, Any]) -> AnyBlade:
+    if "axial_stiffness" in table:
         return Beam.from_stiffness(**table)
     material = {name: table[name] for name in tables.BEAM.required}
     return _shaped(Beam(**material), table.get("shape"))
 
 
-def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
-    keys = tables.BLADE_AT_STATIONS if "stations" in table else tables.BLADE
-    require_keys(table, "[blade]", source, keys)
-    parts, line, shape = dict(table), table.get("line", {}), None
-    masses = parts.pop("point_mass", [])
-    if not isinstance(masses, list):
-        raise ValueError(f"{source}: write each [[blade.point_mass]] as a table")
-    if "stations" in table:
-        at = _at_stations(parts.pop("stations"), source)
+def _blade(table: dict[str, Any], folder: Path) -> AnyBlade:
+    parts: dict[str, Any] = dict(table)
+    masses, damping, line = (
+        parts.pop(name, default)
+        for name, default in (("point_mass", []), ("damping", {}), ("line", {}))
+    )
+    shape = None
+    if "stations" in parts:
+        at = _at_stations(parts.pop("stations"), folder)
         parts |= {"length": at.length, "section": at.section}
         line = {"twist": at.line.twist, **line}
     else:
-        parts["section"], shape = _section(table["section"], source)
-    damping = parts.pop("damping", {})
-    ratio = isinstance(damping, dict) and "ratio" in damping
-    title, keys = "[blade.damping]", tables.DAMPING_BY_RATIO if ratio else tables.table_of(Damping)
-    require_keys(damping, title, source, keys)
-    parts["line"] = _part(Line, line, "[blade.line]", source)
-    parts["point_masses"] = tuple(
-        _part(PointMass, one, "[[blade.point_mass]]", source) for one in masses
-    )
-    blade = _shaped(Blade(**parts), shape).blade
-    if ratio:
+        section = dict(parts["section"])
+        shape = section.pop("shape", None)
+        if "out_of_plane" in section:
+            if shape is not None:
+                raise ValueError(
+                    "a shape and out_of_plane of [blade.section] say the same: keep one"
+                )
+            section["out_of_plane"] = OutOfPlane(**section["out_of_plane"])
+        parts["section"] = Section(**section)
+    point_masses = tuple(PointMass(**one) for one in masses)
+    blade = _shaped(Blade(**parts, line=Line(**line), point_masses=point_masses), shape).blade
+    if "ratio" in damping:
         return blade.with_damping(Damping.from_ratio(blade, 1, damping["ratio"]))
     return blade.with_damping(Damping(**damping))
 
 
-def _at_stations(table: dict[str, Any], source: Path) -> Blade:
-    title = "[blade.stations]"
+def _at_stations(table: dict[str, Any], folder: Path) -> Blade:
     if "file" in table:
-        require_keys(table, title, source, tables.STATIONS_OF_FILE)
-        return blade_of_csv(source.parent / str(table["file"]))
+        return blade_of_csv(folder / str(table["file"]))
     if "shapes" in table:
-        require_keys(table, title, source, tables.STATIONS_OF_SHAPES)
-        shapes = list(map(_shape, table["shapes"]))
+        shapes = [from_description(one, SectionShape) for one in table["shapes"]]
         return Blade.from_shapes(**{**table, "shapes": shapes})
-    require_keys(table, title, source, tables.STATIONS)
     return Blade.from_stations(**table)
 
 
-def _section(table: dict[str, Any], source: Path) -> tuple[Section, Any]:
-    """Return a section, and the table of its shape."""
-    require_keys(table, "[blade.section]", source, tables.SECTION)
-    section = dict(table)
-    shape = section.pop("shape", None)
-    if "out_of_plane" in section:
-        title = "[blade.section.out_of_plane]"
-        section["out_of_plane"] = _part(OutOfPlane, section["out_of_plane"], title, source)
-        if shape is not None:
-            raise ValueError(f"{source} has {title} and a shape, which say the same: keep one")
-    return Section(**section), shape
-
-
-def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
+def _shaped(beam: AnyBlade, shape: Any) -> AnyBlade:
     """Return the beam with the shape of a table, or itself without one."""
-    return beam if shape is None else beam.with_shape(_shape(shape))
-
-
-def _shape(shape: object) -> SectionShape:
-    if not isinstance(shape, dict):
-        raise ValueError('write a shape as a table, as { kind = "Rectangle", width = 0.002 }')
-    return from_description(shape, SectionShape)
-
-
-def _part(cls: type[Any], table: Any, title: str, source: Path) -> Any:
-    """Return the value whose fields are the keys of a table."""
-    require_keys(table, title, source, tables.table_of(cls))
-    return cls(**table)
+    return beam if shape is None else beam.with_shape(from_description(shape, SectionShape))

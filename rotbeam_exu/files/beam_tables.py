@@ -6,7 +6,6 @@ import difflib
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, fields
-from pathlib import Path
 from types import NoneType
 from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
@@ -79,19 +78,49 @@ _DOCUMENT = Table(
 )
 
 
-def require_keys(table: Any, title: str, source: Path, keys: Table) -> None:
-    """Refuse values that are no table, missing keys, and unknown ones, by what to write."""
-    if not isinstance(table, dict):
-        raise ValueError(f"{source}: write {title} as a table")
-    known = (*keys.required, *keys.optional)
-    for key in table:
+def require_keys(value: Any, told: Any = _DOCUMENT, title: str = "the file") -> None:
+    """Refuse what is no table, missing keys, and unknown ones, in a table and in all within it."""
+    if not (tables := _tables(told)):
+        return
+    if get_origin(told) in (list, Sequence):
+        if not isinstance(value, list):
+            raise ValueError(f"write each [{title}] as a table")
+        for one in value:
+            require_keys(one, tables, f"[{title}]")
+        return
+    if not isinstance(value, dict):
+        raise ValueError(f"write {title} as a table")
+    kind = Literal[str(value.get("kind"))]
+    fitting = [one for one in tables if one.required.get("kind") in (None, kind)]
+    if not fitting:
+        return  # of no known kind, which `from_description` refuses
+    # Of alternatives the one whose keys are there.
+    required, optional = min(
+        fitting, key=lambda one: (len(one.required.keys() - value), -len(one.required))
+    )
+    known = {**required, **optional}
+    for key, part in value.items():
         if key not in known:
             close = difflib.get_close_matches(key, known, n=1)
             hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(known)}"
-            raise ValueError(f"{source}: unknown key {key!r} in {title}; {hint}")
-    missing = [key for key in keys.required if key not in table]
-    if missing:
-        raise ValueError(f"{source}: {title} lacks {', '.join(missing)}")
+            raise ValueError(f"unknown key {key!r} in {title}; {hint}")
+        within = "" if told is _DOCUMENT else f"{title.strip('[]')}."
+        require_keys(part, known[key], f"[{within}{key}]")
+    if missing := [key for key in required if key not in value]:
+        raise ValueError(f"{title} lacks {', '.join(missing)}")
+
+
+def _tables(told: Any) -> tuple[Table, ...]:
+    """Return the tables that a value of a type may be or hold, none of numbers and texts."""
+    if isinstance(told, Table):
+        return (told,)
+    if isinstance(told, type) and issubclass(told, Described):
+        kinds = kinds_of(told)
+        if told.__name__ in kinds:
+            return (table_of(told),)
+        return tuple(map(_with_kind, kinds.values()))
+    parts = told if isinstance(told, tuple) else get_args(told)
+    return tuple(table for one in parts for table in _tables(one))
 
 
 def schema() -> dict[str, Any]:
@@ -120,24 +149,16 @@ def _schema_of(told: Any) -> dict[str, Any]:
             "required": list(told.required),
             "additionalProperties": False,
         }
-    if isinstance(told, tuple):
-        several = [_schema_of(one) for one in told]
-        return several[0] if len(several) == 1 else {"anyOf": several}
-    if told in _TYPES:
-        return {"type": _TYPES[told]}
     if get_origin(told) is Literal:
         return {"const": get_args(told)[0]}
-    if isinstance(told, type) and issubclass(told, Described):
-        kinds = kinds_of(told)
-        own = told.__name__ in kinds
-        return _schema_of(table_of(told) if own else tuple(map(_with_kind, kinds.values())))
-    parts = tuple(one for one in get_args(told) if one not in (NoneType, Ellipsis))
-    choice = _schema_of(tuple(dict.fromkeys(parts)))
-    return (
-        {"type": "array", "items": choice}
-        if get_origin(told) in (list, tuple, Sequence)
-        else choice
-    )
+    if not isinstance(told, tuple) and told in _TYPES:
+        return {"type": _TYPES[told]}
+    parts = (one for one in get_args(told) if one not in (NoneType, Ellipsis))
+    several = [_schema_of(one) for one in _tables(told) or dict.fromkeys(parts)]
+    choice = several[0] if len(several) == 1 else {"anyOf": several}
+    if get_origin(told) in (list, tuple, Sequence):
+        return {"type": "array", "items": choice}
+    return choice
 
 
 def _with_kind(cls: type[Any]) -> Table:
