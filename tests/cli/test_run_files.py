@@ -110,7 +110,7 @@ def test_the_file_reaches_the_other_commands(call, config, reached):
         ("[numerics]\nelements = 2.5", "elements must be a whole number"),
         ("[numerics]\nelement = 3", "element must be a name in quotes, got 3"),
         ("motion = 3", "write [motion] as a table"),
-        ("loads = 3", 'write each [[loads]] as a table'),
+        ("loads = 3", "write each [[loads]] as a table"),
         ("[[loads]]\nkind = 'Storm'", "'Storm' is no known Load"),
         ("[[loads]]\nkind = 'TipForce'\nsize = 1.0", "unknown key 'size' in [[loads]]"),
         ("[movement]\nomega = 6", "unknown key 'movement'"),

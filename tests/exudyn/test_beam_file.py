@@ -122,7 +122,11 @@ CHANGED = [
     (MASS, f"{PLANE}bending_ratio = -1.0", "bending_ratio must be positive"),
     (MASS, f'{MASS}\nshape = "Tube"', r"write \[blade.section.shape\] as a table"),
     (MASS, f'{MASS}\nshape = {{ kind = "Blade" }}', "'Blade' is no known SectionShape"),
-    (MASS, f'{MASS}\nshape = {{ kind = "Tube", height = 1.0 }}', r"unknown key 'height' in \[blade.section.shape\]"),
+    (
+        MASS,
+        f'{MASS}\nshape = {{ kind = "Tube", height = 1.0 }}',
+        r"unknown key 'height' in \[blade.section.shape\]",
+    ),
     (
         MASS,
         PLANE.replace("\n", '\nshape = { kind = "Tube" }\n', 1) + "bending_ratio = 1.0",
