@@ -33,15 +33,7 @@ from .solver import mass_matrix
 class Loading:
     """Consistent loads and external damping: all that acts on a chain besides its inertia.
 
-    Parameters
-    ----------
-    model : Formulation
-    beam : Beam or Blade
-    elements : int
-    mass : csr_array
-        Mass matrix of the chain, point masses included.
-    loads : sequence of Load
-        With frequencies, and in the units of the beam.
+    The mass matrix includes point masses; loads are in the units of the beam.
     """
 
     def __init__(
@@ -88,11 +80,7 @@ class Loading:
     def power(self, t: FloatArray, angle: FloatArray, velocities: FloatArray) -> FloatArray:
         """Return the power (samples,) that loads bring and external damping takes.
 
-        Parameters
-        ----------
-        t, angle : ndarray (samples,)
-        velocities : ndarray (samples, nodes, n)
-            Relative to the frame of the clamp, by its axes.
+        Velocities (samples, nodes, n) are relative to the frame of the clamp, by its axes.
         """
         v = velocities.reshape(t.size, -1)
         return np.asarray(np.sum((self.forces(t, angle) - v @ self._drag) * v, axis=1))

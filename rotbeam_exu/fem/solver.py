@@ -126,28 +126,15 @@ def _chain_of(error: BaseException | None) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Trajectory:
-    """Samples of a run, in the units in which it was solved.
-
-    Attributes
-    ----------
-    time : ndarray (samples,)
-    coordinates, velocities : ndarray (samples, nodes, n)
-        Reference values included.
-    reference : ndarray (nodes, n)
-    elastic_energy : ndarray (samples,)
-    multipliers : ndarray (samples, constraints)
-        Lagrange multipliers of the clamp: of the root's place, then of its direction.
-    accelerations : ndarray (samples, nodes, n)
-        With no samples unless asked for.
-    """
+    """Samples of a run, in the units in which it was solved."""
 
     time: FloatArray
-    coordinates: FloatArray
+    coordinates: FloatArray  # (samples, nodes, n), reference values included
     velocities: FloatArray
     reference: FloatArray
     elastic_energy: FloatArray
-    multipliers: FloatArray
-    accelerations: FloatArray
+    multipliers: FloatArray  # (samples, constraints), of the root's place, then its direction
+    accelerations: FloatArray  # with no samples unless asked for
 
 
 class Sensors:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable
 
 from analytic import AnyBlade
 from analytic.description import describe
@@ -27,15 +25,13 @@ FORMULATIONS = {cls.name: cls for cls in _ELEMENTS}
 """The class of each formulation, in the plane or in space; its fields are its options."""
 
 
-def formulation(
-    element: str | Formulation, options: Mapping[str, object] | None = None
-) -> Formulation:
-    """Return the formulation called `element`, with `options`; a Formulation is passed through.
+def formulation(element: str | Formulation) -> Formulation:
+    """Return the formulation called `element`; a Formulation is passed through.
 
     Raises
     ------
     ValueError
-        If the name, or an option of it, is not known: the sentence says which are.
+        If the name is not known: the sentence says which are.
     """
     if not isinstance(element, str):
         if not _is_formulation(element):
@@ -48,14 +44,7 @@ def formulation(
     if element not in FORMULATIONS:
         names = ", ".join(map(repr, FORMULATIONS))
         raise ValueError(f"unknown element {element!r}; known are {names}")
-    cls: Any = FORMULATIONS[element]
-    fields = [field.name for field in dataclasses.fields(cls)]
-    for name in options or {}:
-        if name not in fields:
-            has = f"its options are {', '.join(fields)}" if fields else "it has no options"
-            raise ValueError(f"element {element!r} has no option {name!r}; {has}")
-    model: Formulation = cls(**(options or {}))
-    return model
+    return FORMULATIONS[element]()
 
 
 def _is_formulation(element: object) -> bool:

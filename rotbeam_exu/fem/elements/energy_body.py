@@ -24,14 +24,7 @@ from ..mesh import Mesh
 class Assembly:
     """Places of the coordinates of equal elements, in a row of nodes, among all coordinates.
 
-    Parameters
-    ----------
-    elements : int
-        Elements in the row.
-    inner : int
-        Nodes that an element adds, one fewer than it has.
-    per_node : int
-        Coordinates of a node.
+    An element adds `inner` nodes, one fewer than it has.
     """
 
     def __init__(self, elements: int, inner: int, per_node: int) -> None:
@@ -164,10 +157,7 @@ def add_point_inertias(
 
 
 def _add_inertia(
-    mbs: exudyn.MainSystem,
-    node: exudyn.NodeIndex,
-    inertia: float,
-    acceleration: Callable[[float], float],
+    mbs: exudyn.MainSystem, node: Any, inertia: float, acceleration: Callable[[float], float]
 ) -> None:
     reference = np.array(mbs.GetNodeParameter(node, "referenceCoordinates"))[_SLOPE]
 

@@ -266,22 +266,10 @@ class Formulation(Described, abstract=True):
     ) -> tuple[FloatArray, FloatArray]:
         """Return the kinetic energy T and the angular momentum L_z = ∂T/∂w about the axis.
 
-        Both are (samples,). With c = cos ψ and s = sin ψ, the velocity in the plane of bending
-        contains a rotation by c w. Normal to it a point moves by s w times its distance x along the
-        clamp's line.
-
-        Parameters
-        ----------
-        beam : Beam or Blade
-        mass : csr_array
-            Of the chain, but for the inertia of its turning nodes.
-        turning : tuple of TurningNode
-        coordinates : ndarray (samples, nodes, n)
-            In the frame of the clamp, reference included.
-        velocities : ndarray (samples, nodes, n)
-            Absolute, in the plane of bending, by the axes of that frame.
-        rate : ndarray (samples,)
-            w.
+        Of coordinates (samples, nodes, n) in the frame of the clamp, of velocities by its axes that
+        are absolute in the plane of bending, and of the speed w. With c = cos ψ and s = sin ψ,
+        these contain a rotation by c w. Normal to the plane a point moves by s w times its distance
+        x along the clamp's line.
         """
         samples, setting = rate.size, self.setting(beam)
         v = velocities.reshape(samples, -1)
