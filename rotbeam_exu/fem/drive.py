@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -181,33 +182,23 @@ def prescribe_rotation(
         constraints.append(_hold(mbs, chain, np.eye(element.dimensions, root.size)))
     # Each constraint holds a few coordinates, the same at every angle.
     clamp = _clamp(element, root, radius)
-    rows_at_1 = clamp(1.0)[0]
-    held = [np.flatnonzero(row).tolist() for row in rows_at_1]
-    # Called seven times a step: nothing is done twice for one t, and numbers are plain.
-    time, gradient, rows = np.nan, rows_at_1, [([(0.0, 0)], 0.0)]
+    held = [np.flatnonzero(row).tolist() for row in clamp(1.0)[0]]
 
-    def turn_to(t: float) -> None:
-        nonlocal time, gradient, rows
-        time = t
+    @lru_cache(maxsize=1)  # called seven times a step, with plain numbers
+    def turned_to(t: float) -> tuple[FloatArray, list[tuple[list[tuple[float, int]], float]]]:
         gradient, target = clamp(rotation.angle(t))
-        rows = [
-            ([(row[i], i) for i in at], d)
-            for at, row, d in zip(held, gradient.tolist(), target.tolist(), strict=True)
-        ]
+        rows = zip(held, gradient.tolist(), target.tolist(), strict=True)
+        return gradient, [([(row[i], i) for i in at], d) for at, row, d in rows]
 
     def residual(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
     ) -> list[float]:
-        if t != time:
-            turn_to(t)
-        return [sum([a * q[i] for a, i in row]) - d for row, d in rows]
+        return [sum([a * q[i] for a, i in row]) - d for row, d in turned_to(t)[1]]
 
     def jacobian(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
     ) -> FloatArray:
-        if t != time:
-            turn_to(t)
-        return gradient
+        return turned_to(t)[0]
 
     turning = items.ObjectConnectorCoordinateVector(
         markerNumbers=_markers(mbs, chain),

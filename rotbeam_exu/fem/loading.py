@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -91,26 +92,23 @@ class Loading:
         turn = sparse.kron(sparse.eye_array(len(chain.nodes)), self._model.quarter_turn)
         turning = (self._drag @ turn).tocsr()
         drag_triplets, turning_triplets = triplets(self._drag), triplets(turning)
-        time, acting = np.nan, np.zeros(self._drag.shape[0])
 
-        def act(t: float) -> None:
-            nonlocal time, acting
-            time, angle = t, np.array([rotation.angle(t)])
-            acting = self.forces(np.array([t]), angle).ravel()
-            if inertial:
-                per_node = acting.reshape(1, len(chain.nodes), -1)
-                acting = self._model.turned(per_node, angle).ravel()
+        @lru_cache(maxsize=1)
+        def acting(t: float) -> FloatArray:
+            angle = np.array([rotation.angle(t)])
+            forces = self.forces(np.array([t]), angle)
+            if not inertial:
+                return forces.ravel()
+            return self._model.turned(forces.reshape(1, len(chain.nodes), -1), angle).ravel()
 
         def frame_rate(t: float) -> float:
             """Return the rate at which velocities of the clamp's frame turn in the coordinates."""
             return rotation.rate(t) if inertial else 0.0
 
         def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:
-            if t != time:
-                act(t)
-            return np.asarray(acting + frame_rate(t) * (turning @ e) - self._drag @ rates)
+            return np.asarray(acting(t) + frame_rate(t) * (turning @ e) - self._drag @ rates)
 
         def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
             return [(drag_triplets, 0.0, -1.0), (turning_triplets, frame_rate(t), 0.0)]
 
-        add_force(mbs, chain.nodes, acting.size, force=force, derivatives=derivatives)
+        add_force(mbs, chain.nodes, self._drag.shape[0], force=force, derivatives=derivatives)
