@@ -13,7 +13,6 @@ import math
 
 import numpy as np
 
-from analytic import AnyBlade
 from analytic.arrays import FloatArray, few_at_once
 from analytic.exact.beam.kinematics import set_at
 from analytic.exact.beam.state import SectionLoads
@@ -38,20 +37,16 @@ _INSTANT = 1e-4  # of √(mL³/EI), for the differences that tell how sections t
 def columns(
     case: RunCase,
     units: Units,
-    beam: AnyBlade,
     built: RotatingBeam,
     trajectory: Trajectory,
     stations: FloatArray,
 ) -> xr.Dataset:
-    """Return the samples of a run; `beam` is the case's in `units`, as is the trajectory.
-
-    `stations` are over L.
-    """
-    model, setting, space = case.model, case.model.setting(beam), case.model.leaves_plane
+    """Return the samples of a run, whose trajectory is in `units`; `stations` are over L."""
+    model, beam, space = case.model, built.beam, case.model.leaves_plane
     # Counted, not added up: the times of the steps asked for.
     time = case.step * np.rint(trajectory.time * units.time / case.step)
     coordinates, absolute = trajectory.coordinates, trajectory.velocities
-    elastic = trajectory.elastic_energy
+    elastic, setting = trajectory.elastic_energy, model.setting(beam)
     angle, rate = case.rotation.angle(time), units.time * case.rotation.rate(time)
     if case.frame == "inertial":
         coordinates = model.turned(coordinates, -angle) - angle[:, None, None] * model.angles

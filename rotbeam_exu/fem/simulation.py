@@ -150,11 +150,10 @@ def run_case(
     warn_if_rpm(case.beam, case.fastest)
     units, model = Units.of(case.beam, case.step), case.model
     kept = points_of_beam("stations", stations, case.beam.length)
-    beam = units.beam(case.beam)
     with exudyn_system() as mbs:
         built = add_rotating_beam(
-            mbs, beam, units.rotation(case.spin_up), element=model, elements=case.elements,
-            frame=case.frame, loads=units.loads(case.loads),
+            mbs, units.beam(case.beam), units.rotation(case.spin_up), element=model,
+            elements=case.elements, frame=case.frame, loads=units.loads(case.loads),
         )  # fmt: skip
         sensors = Sensors(mbs, built.chain, built.clamp, kept.size > 0)
         if start := _start(case, units, built.chain.reference(mbs), initial_state):
@@ -173,7 +172,7 @@ def run_case(
         cause = solve(mbs, settings, progress)
         wall_time = clock.perf_counter() - started
         trajectory = sensors.read()
-    run = columns(case, units, beam, built, trajectory, kept)
+    run = columns(case, units, built, trajectory, kept)
     run.attrs = {
         **case.describe(),
         "divergence_speed": model.divergence_speed(case.beam, case.elements),

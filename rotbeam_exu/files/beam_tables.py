@@ -5,7 +5,6 @@ from __future__ import annotations
 import difflib
 import inspect
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import MISSING, fields
 from types import NoneType
 from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
@@ -25,16 +24,9 @@ class Table(NamedTuple):
     optional: Mapping[str, Any]
 
 
-def table_of(cls: type[Any]) -> Table:
-    """Return the keys of a dataclass's table, which are its fields."""
-    hints, own = get_type_hints(cls), [one for one in fields(cls) if one.init]
-    asked = {one.name: hints[one.name] for one in own if one.default is MISSING}
-    return Table(asked, {one.name: hints[one.name] for one in own if one.name not in asked})
-
-
-def _table_of_call(function: Callable[..., Any]) -> Table:
-    """Return the keys of a table that holds the arguments of a call."""
-    hints, known = get_type_hints(function), inspect.signature(function).parameters.values()
+def table_of(call: Callable[..., Any]) -> Table:
+    """Return the keys of a table that holds the fields of a class, or the arguments of a call."""
+    hints, known = get_type_hints(call), inspect.signature(call).parameters.values()
     asked = {one.name: hints[one.name] for one in known if one.default is one.empty}
     return Table(asked, {one.name: hints[one.name] for one in known if one.name not in asked})
 
@@ -49,8 +41,8 @@ SECTION = Table(
     {name: _OF_SECTION[name] for name in ("rotary_inertia", "out_of_plane")}
     | {"shape": SectionShape},
 )
-STATIONS = _table_of_call(Blade.from_stations)
-STATIONS_OF_SHAPES = _table_of_call(Blade.from_shapes)
+STATIONS = table_of(Blade.from_stations)
+STATIONS_OF_SHAPES = table_of(Blade.from_shapes)
 STATIONS_OF_FILE = Table({"file": str}, {})
 DAMPING_BY_RATIO = Table({"ratio": float}, {})
 _BLADE = {
@@ -90,8 +82,11 @@ def require_keys(value: Any, told: Any = _DOCUMENT, title: str = "the file") -> 
         return
     if not isinstance(value, dict):
         raise ValueError(f"write {title} as a table")
-    kind = Literal[str(value.get("kind"))]
-    fitting = [one for one in tables if one.required.get("kind") in (None, kind)]
+    fitting = [
+        one
+        for one in tables
+        if "kind" not in one.required or value.get("kind") in get_args(one.required["kind"])
+    ]
     if not fitting:
         return  # of no known kind, which `from_description` refuses
     # Of alternatives the one whose keys are there.

@@ -34,26 +34,21 @@ def formulation(element: str | Formulation) -> Formulation:
         If the name is not known: the sentence says which are.
     """
     if not isinstance(element, str):
-        if not _is_formulation(element):
-            raise TypeError(
-                "element must be the name of a formulation, or an instance of a frozen dataclass "
-                "that inherits from a kind of node and whose options are numbers and text, as "
-                f"Exact(nodes=3), got {shown(element)}"
-            )
-        return element
+        try:  # whether it hashes, and a file can hold it
+            _ = hash(element), describe(element)
+            if isinstance(element, Formulation):
+                return element
+        except TypeError:
+            pass
+        raise TypeError(
+            "element must be the name of a formulation, or an instance of a frozen dataclass "
+            "that inherits from a kind of node and whose options are numbers and text, as "
+            f"Exact(nodes=3), got {shown(element)}"
+        )
     if element not in FORMULATIONS:
         names = ", ".join(map(repr, FORMULATIONS))
         raise ValueError(f"unknown element {element!r}; known are {names}")
     return FORMULATIONS[element]()
-
-
-def _is_formulation(element: object) -> bool:
-    """Whether it is one, hashes, and a file can hold it."""
-    try:
-        _ = hash(element), describe(element)
-    except TypeError:
-        return False
-    return isinstance(element, Formulation)
 
 
 def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial") -> None:

@@ -94,7 +94,7 @@ class Exact(Sheared, AngleNodes):
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """r'·d - 1 at the Gauss points."""
         elements = (coordinates.shape[-2] - 1) // (self.nodes - 1)
-        return _Row(self, beam, elements).strains(coordinates)[0]
+        return np.asarray(_Row(self, beam, elements).strains(coordinates)[0])
 
 
 class _Row:
