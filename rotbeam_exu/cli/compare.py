@@ -9,8 +9,7 @@ from typing import Any
 from analytic import AnyBlade, Beam
 
 from .. import paper
-from ..fem.lazily import require_exudyn
-from ..lazily import xr
+from ..lazily import require_exudyn, xr
 from ..runs.attributes import beam_attributes
 from .job import Job, refuse_to_replace
 from .motion import ChosenMotion, chosen_speeds, chosen_times, configured, grid_motion, motion_of

@@ -10,8 +10,8 @@ from cyclopts import Parameter
 from analytic import AnyBlade
 
 from .. import paper
-from ..fem.lazily import require_exudyn
 from ..files.results import whole_file
+from ..lazily import require_exudyn
 from .job import require_writable
 from .motion import chosen_speeds, chosen_times, configured, grid_motion
 from .options import Flag, Jobs, Workers

@@ -15,6 +15,7 @@ from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation, SpeedChange
 
 from ..runs.attributes import (
+    Frame,
     beam_attributes,
     beam_of,
     loads_attributes,
@@ -24,7 +25,6 @@ from ..runs.attributes import (
 )
 from ..runs.check import checked_steps
 from .elements import Formulation, formulation, require_modeled
-from .lazily import Frame
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,9 +27,9 @@ from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.motion import Rotation
 
+from ..lazily import exudyn, items
+from .elements.base import Chain, Formulation
 from .elements.energy_body import add_force, add_point_inertias, triplets
-from .elements.formulation import Chain, Formulation
-from .lazily import exudyn, items
 
 Torque = Callable[[Any, float], float]
 """Torque of a clamp on its blade, of a solved system at a time, as user functions have them."""
@@ -269,7 +269,7 @@ def add_inertial_forces(
         rate, acceleration = rotation.rate(t), rotation.acceleration(t)
         return [(stiff_triplets, rate**2, 0.0), (gyro_triplets, -acceleration, -2.0 * rate)]
 
-    add_force(mbs, chain.nodes, mass.shape[0], force=force, derivatives=derivatives)
+    add_force(mbs, chain.nodes, force=force, derivatives=derivatives)
     add_point_inertias(
         mbs, chain.nodes, chain.turning, lambda t: setting * rotation.acceleration(t)
     )

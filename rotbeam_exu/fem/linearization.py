@@ -17,11 +17,11 @@ from analytic.input_checks import rotation_speed, whole_number
 from analytic.loads import Load
 from analytic.methods.system import inverse_eigenvalues
 
+from ..lazily import exudyn
 from ..runs.check import SimulationError, require_stretch, warn_if_coarse
 from .columns import twist
 from .elements import Formulation, formulation
 from .elements.energy_body import add_force
-from .lazily import exudyn
 from .loading import Loading
 from .rotating_beam import add_rotating_beam
 from .solver import exudyn_system, static_settings
@@ -96,7 +96,7 @@ class Linearization:
                 whole = loading.forces(np.zeros(1), np.zeros(1)).ravel()
                 nothing = [(np.zeros((1, 3)), 0.0, 0.0)]
                 add_force(
-                    mbs, built.nodes, whole.size, force=lambda t, e, rates: t * whole,
+                    mbs, built.nodes, force=lambda t, e, rates: t * whole,
                     derivatives=lambda t, e: nothing,
                 )  # fmt: skip
             mbs.Assemble()

@@ -25,9 +25,10 @@ from analytic.lazily import sparse
 from analytic.loads import Load
 from analytic.motion import Rotation
 
+from ..lazily import exudyn
+from ..runs.attributes import Frame
+from .elements.base import Chain, Formulation
 from .elements.energy_body import add_force, triplets
-from .elements.formulation import Chain, Formulation
-from .lazily import Frame, exudyn
 from .solver import mass_matrix
 
 
@@ -111,4 +112,4 @@ class Loading:
         def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
             return [(drag_triplets, 0.0, -1.0), (turning_triplets, frame_rate(t), 0.0)]
 
-        add_force(mbs, chain.nodes, self._drag.shape[0], force=force, derivatives=derivatives)
+        add_force(mbs, chain.nodes, force=force, derivatives=derivatives)

@@ -25,13 +25,12 @@ from analytic.motion import SpeedChange
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..runs.attributes import versions
+from ..runs.attributes import Frame, versions
 from ..runs.check import SimulationError, check_run, remedy
 from . import drive
 from .case import RunCase
 from .columns import columns
 from .elements import Formulation
-from .lazily import Frame
 from .rotating_beam import add_rotating_beam
 from .solver import Sensors, described, exudyn_system, solve
 from .units import Units

@@ -13,8 +13,9 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
-from .elements.formulation import Chain, Formulation
-from .lazily import Frame, exudyn, items
+from ..lazily import exudyn, items
+from ..runs.attributes import Frame
+from .elements.base import Chain, Formulation
 
 
 @contextmanager

@@ -22,12 +22,11 @@ from analytic.loads import Load
 
 from ..fem.case import RunCase
 from ..fem.elements import Formulation
-from ..fem.lazily import Frame
 from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..labels import OMEGA, dataset
 from ..lazily import xr
-from ..runs.attributes import versions
+from ..runs.attributes import Frame, versions
 from ..runs.check import SimulationError
 from ..runs.oscillation import OSCILLATION, NoOscillationError, steady_oscillation
 from .cases import Cache, cache_of, worker_pool

@@ -12,10 +12,10 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
-from ..lazily import exudyn
+from ...lazily import exudyn
 from ..mesh import Mesh, lagrange
+from .base import POISSON_RATIO, Chain, Sheared
 from .energy_body import Assembly, add_energy_body, add_point_masses
-from .formulation import POISSON_RATIO, Chain, Sheared
 from .node_kinds import SectionSlopeNodes
 
 Law = Literal["uncoupled", "coupled"]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
-from ..lazily import exudyn, items
+from ...lazily import exudyn, items
 from ..mesh import Mesh
 
 
@@ -70,7 +70,7 @@ def add_energy_body(
     triplets to be added up.
     """
     add_force(
-        mbs, nodes, mass.shape[0],
+        mbs, nodes,
         force=lambda t, e, rates: -force(e),
         derivatives=lambda t, e: [(tangent(e), -1.0, 0.0)],
         mass=mass,
@@ -80,19 +80,18 @@ def add_energy_body(
 def add_force(
     mbs: exudyn.MainSystem,
     nodes: Sequence[exudyn.NodeIndex],
-    size: int,
     *,
     force: Callable[[float, FloatArray, FloatArray], FloatArray],
     derivatives: Callable[[float, FloatArray], Sequence[tuple[FloatArray, float, float]]],
     mass: sparse.csr_array | None = None,
 ) -> None:
-    """Add M e'' = f(t, e, e') over the coordinates e of `nodes`, (size,), reference included.
+    """Add M e'' = f(t, e, e') over the coordinates e of `nodes`, reference included.
 
     `derivatives` returns parts, each a matrix as triplets to be added up, and the factors with
     which it stands in ∂f/∂e and in ∂f/∂e'. Without `mass` M is zero.
     """
     reference = np.concatenate([mbs.GetNodeParameter(n, "referenceCoordinates") for n in nodes])
-    container = exudyn.MatrixContainer()
+    size, container = reference.size, exudyn.MatrixContainer()
     container.SetWithSparseMatrix(sparse.csr_matrix((size, size) if mass is None else mass))
 
     def applied(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:

@@ -21,10 +21,10 @@ from analytic.beam import require_planar
 from analytic.input_checks import whole_number
 from analytic.lazily import linalg, optimize
 
-from ..lazily import exudyn
+from ...lazily import exudyn
 from ..mesh import HERMITE, scales
+from .base import Chain
 from .energy_body import Assembly, add_energy_body
-from .formulation import Chain
 from .node_kinds import QUARTER_TURN, SlopeNodes
 
 FloatingFrame = Literal["tangent", "pinned"]

@@ -12,18 +12,16 @@ import numpy as np
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.exact.space.unit import space_unit
-from analytic.lazily import Lazily
+from analytic.lazily import spatial
 from analytic.motion import Rotation
 from analytic.quadrature import gauss_points
 from analytic.theory import Theory
 
-from ..lazily import exudyn, items
+from ...lazily import exudyn, items
 from ..mesh import Mesh
+from .base import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .energy_body import Assembly, add_force
-from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .node_kinds import FrameNodes, directors, require_bare, turning_rate
-
-_turns = Lazily("scipy.spatial.transform")
 
 _INNER, _ = gauss_points(2)
 """Where Exudyn integrates the inertia against rotation, with equal weights, as measured."""
@@ -137,8 +135,7 @@ class SpaceExact(Sheared, FrameNodes):
 
             return [(slope(1.0, 0.0), 1.0, 0.0), (slope(0.0, 1.0), 0.0, 1.0)]
 
-        size = row.reference.size
-        add_force(mbs, chain.nodes, size, force=force, derivatives=derivatives)
+        add_force(mbs, chain.nodes, force=force, derivatives=derivatives)
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """Strain along the normal of the sections, of each element."""
@@ -188,7 +185,7 @@ class _Row:
         self.length, frame = mesh.length, element.line_frame(blade)
         place, sections = unit.unloaded(np.linspace(0.0, 1.0, elements + 1))
         r = blade.length * (unit.clamp + place) @ frame.T
-        p = _turns.Rotation.from_matrix(frame @ sections).as_quat()[:, [3, 0, 1, 2]]
+        p = spatial.transform.Rotation.from_matrix(frame @ sections).as_quat()[:, [3, 0, 1, 2]]
         self.reference = np.hstack((r, p))
         at = mesh.sections
         EA, EI, self.mass = at.axial_stiffness, at.bending_stiffness, at.mass_per_length
@@ -229,7 +226,9 @@ class _Row:
         turn = directors(p)
         ends = (turn @ turning_rate(p, p_dot)[..., None])[..., 0]
         psi = _rotation_vector(np.swapaxes(turn[..., 0, :, :], -1, -2) @ turn[..., 1, :, :])
-        part = _turns.Rotation.from_rotvec((_INNER[:, None] * psi[..., None, :]).reshape(-1, 3))
+        part = spatial.transform.Rotation.from_rotvec(
+            (_INNER[:, None] * psi[..., None, :]).reshape(-1, 3)
+        )
         at = turn[..., :1, :, :] @ part.as_matrix().reshape(*psi.shape[:-1], 2, 3, 3)
         inertia = (at * self.inertia[:, None, None, :]) @ np.swapaxes(at, -1, -2)
         return turn, _VALUES @ ends, inertia
@@ -262,5 +261,5 @@ _VALUES = np.stack((1.0 - _INNER, _INNER), axis=1)
 
 def _rotation_vector(turn: FloatArray) -> FloatArray:
     """Return the rotation vectors (..., 3) of rotations (..., 3, 3)."""
-    flat = _turns.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
+    flat = spatial.transform.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
     return np.asarray(flat.reshape(turn.shape[:-1]))

@@ -20,7 +20,7 @@ from analytic.lazily import sparse
 from analytic.motion import Rotation
 from analytic.theory import Theory
 
-from ..lazily import exudyn, items
+from ...lazily import exudyn, items
 from ..mesh import lagrange
 from .energy_body import TurningNode, spins
 
@@ -38,18 +38,17 @@ class Chain:
     Parameters
     ----------
     nodes : tuple of NodeIndex
-        Nodes from the clamped root to the free tip.
+        From the clamped root to the free tip.
     bodies : tuple of ObjectIndex
         Elements of Exudyn, which report their elastic energy as their potential energy.
     elastic_energy : callable, optional
-        The elastic energy [J], (samples,), from the coordinates of the nodes, reference included,
-        (samples, nodes, n), of bodies of our own.
+        That of bodies of our own [J], (samples,), by the coordinates of the nodes, reference
+        included, (samples, nodes, n).
     turning : tuple of TurningNode
-        Nodes whose slopes, coordinates 2 and 3, get an inertia: no constant mass matrix holds it,
-        and `drive` adds it.
+        Nodes whose slopes, coordinates 2 and 3, get an inertia: no constant mass matrix holds it.
     dissipation : callable, optional
-        The power [W], (samples,), that the viscosity of the beam takes, from coordinates and rates
-        of the nodes (samples, nodes, n) in any one frame, where the beam has viscosity.
+        The power [W], (samples,), that viscosity takes, by coordinates and rates of the nodes in
+        any one frame.
     """
 
     nodes: tuple[exudyn.NodeIndex, ...]
