@@ -17,7 +17,7 @@ from analytic.description import kinds_of
 from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
-from ..runs.attributes import Frame
+from ..runs import Frame
 from .job import telling_what_is_kept
 from .motion import ChosenMotion
 from .output import counter

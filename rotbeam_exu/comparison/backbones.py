@@ -14,7 +14,8 @@ from analytic.exact.plane.growth import planar_note
 from ..labels import AMPLITUDE, OMEGA, dataset, labeled
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
-from ..runs.attributes import Frame, beam_attributes
+from ..runs import Frame
+from ..runs.attributes import beam_attributes
 from ..sweeps.grid import sweep
 from .theory import RATIO, beyond_range
 

@@ -14,8 +14,8 @@ from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation, SpeedChange
 
+from ..runs import Frame
 from ..runs.attributes import (
-    Frame,
     beam_attributes,
     beam_of,
     loads_attributes,

@@ -28,8 +28,8 @@ from analytic.lazily import sparse
 from analytic.motion import Rotation
 
 from ..lazily import exudyn, items
-from .elements.base import Chain, Formulation
 from .elements.energy_body import add_force, add_point_inertias, triplets
+from .elements.formulation import Chain, Formulation
 
 Torque = Callable[[Any, float], float]
 """Torque of a clamp on its blade, of a solved system at a time, as user functions have them."""

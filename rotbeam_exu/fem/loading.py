@@ -26,9 +26,9 @@ from analytic.loads import Load
 from analytic.motion import Rotation
 
 from ..lazily import exudyn
-from ..runs.attributes import Frame
-from .elements.base import Chain, Formulation
+from ..runs import Frame
 from .elements.energy_body import add_force, triplets
+from .elements.formulation import Chain, Formulation
 from .solver import mass_matrix
 
 

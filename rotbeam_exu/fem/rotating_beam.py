@@ -13,7 +13,7 @@ from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
 from ..lazily import exudyn, items
-from ..runs.attributes import Frame
+from ..runs import Frame
 from ..runs.check import whole_steps
 from . import drive
 from .elements import Chain, Formulation, formulation, require_joint, require_modeled

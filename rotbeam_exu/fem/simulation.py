@@ -25,7 +25,8 @@ from analytic.motion import SpeedChange
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..runs.attributes import Frame, versions
+from ..runs import Frame
+from ..runs.attributes import versions
 from ..runs.check import SimulationError, check_run, remedy
 from . import drive
 from .case import RunCase

@@ -14,8 +14,8 @@ from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
 from ..lazily import exudyn, items
-from ..runs.attributes import Frame
-from .elements.base import Chain, Formulation
+from ..runs import Frame
+from .elements.formulation import Chain, Formulation
 
 
 @contextmanager

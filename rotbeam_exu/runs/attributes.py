@@ -7,7 +7,7 @@ import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from importlib import metadata
-from typing import Any, Literal
+from typing import Any
 
 from analytic import AnyBlade, Beam, Blade, SpinUp, SteadyRotation
 from analytic.description import describe, from_description
@@ -15,9 +15,6 @@ from analytic.loads import Load
 from analytic.motion import Motion
 
 from .. import __version__
-
-Frame = Literal["inertial", "rotating"]
-"""The coordinates of a model."""
 
 
 def beam_of(attrs: Mapping[Any, Any]) -> AnyBlade:

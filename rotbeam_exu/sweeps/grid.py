@@ -26,7 +26,8 @@ from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..labels import OMEGA, dataset
 from ..lazily import xr
-from ..runs.attributes import Frame, versions
+from ..runs import Frame
+from ..runs.attributes import versions
 from ..runs.check import SimulationError
 from ..runs.oscillation import OSCILLATION, NoOscillationError, steady_oscillation
 from .cases import Cache, cache_of, worker_pool

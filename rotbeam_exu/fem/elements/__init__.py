@@ -9,10 +9,10 @@ from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
-from ...runs.attributes import Frame
+from ...runs import Frame
 from .ancf3 import Ancf3
-from .base import Chain, Formulation
 from .cable import Cable, SpaceCable
+from .formulation import Chain, Formulation
 from .linear_frames import Linear, Substructures
 from .reissner import Exact
 from .reissner_in_space import SpaceExact

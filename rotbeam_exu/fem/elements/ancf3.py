@@ -14,8 +14,8 @@ from analytic.quadrature import gauss_points
 
 from ...lazily import exudyn
 from ..mesh import Mesh, lagrange
-from .base import POISSON_RATIO, Chain, Sheared
 from .energy_body import Assembly, add_energy_body, add_point_masses
+from .formulation import POISSON_RATIO, Chain, Sheared
 from .node_kinds import SectionSlopeNodes
 
 Law = Literal["uncoupled", "coupled"]

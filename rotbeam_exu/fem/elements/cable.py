@@ -16,8 +16,8 @@ from analytic.quadrature import gauss_points
 
 from ...lazily import exudyn, items
 from ..mesh import Mesh, shapes
-from .base import Chain, Formulation, rate_of
 from .energy_body import add_point_masses
+from .formulation import Chain, Formulation, rate_of
 from .node_kinds import SlopeNodes, SpaceSlopeNodes, require_bare
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))

@@ -23,8 +23,8 @@ from analytic.lazily import linalg, optimize
 
 from ...lazily import exudyn
 from ..mesh import HERMITE, scales
-from .base import Chain
 from .energy_body import Assembly, add_energy_body
+from .formulation import Chain
 from .node_kinds import QUARTER_TURN, SlopeNodes
 
 FloatingFrame = Literal["tangent", "pinned"]

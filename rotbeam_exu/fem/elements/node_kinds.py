@@ -19,7 +19,7 @@ from analytic.exact.beam.state import BeamState
 from analytic.lazily import spatial
 
 from ..mesh import shapes
-from .base import Formulation, cells
+from .formulation import Formulation, cells
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 """The generator of plane rotations: (x, y) becomes (-y, x)."""

@@ -13,7 +13,7 @@ from analytic.quadrature import gauss_points
 
 from ...lazily import exudyn, items
 from ..mesh import Mesh, lagrange
-from .base import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared, rate_of
+from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared, rate_of
 from .node_kinds import AngleNodes
 
 

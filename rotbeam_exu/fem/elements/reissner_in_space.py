@@ -19,8 +19,8 @@ from analytic.theory import Theory
 
 from ...lazily import exudyn, items
 from ..mesh import Mesh
-from .base import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .energy_body import Assembly, add_force
+from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .node_kinds import FrameNodes, directors, require_bare, turning_rate
 
 _INNER, _ = gauss_points(2)
