@@ -19,7 +19,7 @@ from . import drive
 from .elements import Chain, Formulation, formulation, require_joint, require_modeled
 from .loading import Loading
 from .solver import mass_matrix, round_off
-from .units import Restated, Units
+from .units import Units, restated
 
 _TOLERANCE = 1e-9
 """Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""
@@ -195,7 +195,7 @@ def add_rotating_beam(
     if on_body:
         constraints, torque = drive.clamp_to_body(mbs, chain, model, clamp, azimuth)
     else:
-        rotation = Restated(rippled(clamp, loads), azimuth=azimuth)
+        rotation = restated(rippled(clamp, loads), azimuth=azimuth)
         if frame == "inertial":
             constraints = drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
         else:

@@ -148,40 +148,37 @@ class Sensors:
         self._mbs, self._chain, self._reference = mbs, chain, chain.reference(mbs)
         kind = exudyn.OutputVariableType
         kept: dict[str, Any] = {"storeInternal": True, "writeToFile": False}
-        self._coordinates, self._velocities, self._accelerations = (
-            [
-                mbs.AddSensor(items.SensorNode(nodeNumber=n, outputVariableType=variable, **kept))
-                for n in chain.nodes
-                if accelerations or variable != kind.Coordinates_tt
-            ]
-            for variable in (kind.Coordinates, kind.Coordinates_t, kind.Coordinates_tt)
-        )
-        energy = kind.PotentialEnergy
+
+        def of_nodes(variable: Any) -> list[exudyn.SensorIndex]:
+            nodal = {"outputVariableType": variable, **kept}
+            return [mbs.AddSensor(items.SensorNode(nodeNumber=n, **nodal)) for n in chain.nodes]
+
+        self._coordinates, self._velocities = map(of_nodes, (kind.Coordinates, kind.Coordinates_t))
+        self._accelerations = of_nodes(kind.Coordinates_tt) if accelerations else []
+        kept["outputVariableType"] = kind.PotentialEnergy
         self._elastic = [
-            mbs.AddSensor(items.SensorBody(bodyNumber=body, outputVariableType=energy, **kept))
-            for body in chain.bodies
+            mbs.AddSensor(items.SensorBody(bodyNumber=one, **kept)) for one in chain.bodies
         ]
-        self._clamp = [
-            mbs.AddSensor(items.SensorObject(objectNumber=o, outputVariableType=kind.Force, **kept))
-            for o in clamp
-        ]
+        kept["outputVariableType"] = kind.Force
+        self._clamp = [mbs.AddSensor(items.SensorObject(objectNumber=o, **kept)) for o in clamp]
 
     def read(self) -> Trajectory:
         """Return the samples kept."""
         table = self._mbs.GetSensorStoredData
-        coordinates = np.stack([table(s)[:, 1:] for s in self._coordinates], axis=1)
-        coordinates += self._reference
+
+        def values(sensors: Sequence[exudyn.SensorIndex]) -> FloatArray:
+            return np.stack([table(one)[:, 1:] for one in sensors], axis=1)
+
+        coordinates = values(self._coordinates) + self._reference
         elastic = np.sum([table(s)[:, 1] for s in self._elastic], axis=0)
         if self._chain.elastic_energy is not None:
             elastic = elastic + self._chain.elastic_energy(coordinates)
         return Trajectory(
             time=np.array(table(self._coordinates[0])[:, 0]),
             coordinates=coordinates,
-            velocities=np.stack([table(s)[:, 1:] for s in self._velocities], axis=1),
+            velocities=values(self._velocities),
             reference=self._reference,
             elastic_energy=elastic,
             multipliers=np.hstack([coordinates[:, 0, :0], *(table(s)[:, 1:] for s in self._clamp)]),
-            accelerations=np.stack(
-                [table(s)[:, 1:] for s in self._accelerations] or [coordinates[:0, 0]], axis=1
-            ),
+            accelerations=values(self._accelerations) if self._accelerations else coordinates[:0],
         )

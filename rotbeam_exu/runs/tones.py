@@ -79,11 +79,6 @@ class Fit:
         """Weighted sum of the remainder's squares."""
         return float(self.weights @ self.remainder**2)
 
-    def newton_step(self) -> FloatArray:
-        """Return the change of the rates that the linearized model asks for, coefficients free."""
-        change = _solve(self._tangent, self.remainder, self.weights)
-        return change[self.coefficients.size :]
-
     def frequency(self) -> Known:
         """Return ω and its error."""
         gradient = np.zeros(self.coefficients.size + self.rates.size)
@@ -127,13 +122,13 @@ class Fit:
         the fit has absorbed the error, so r̂ is the largest of its neighbors.
         """
         inverse, samples = self._inverse, 2 * self.x.size
-        influence = self.weights * (self._tangent @ (inverse @ (inverse.T @ gradient)))
+        influence = self.weights * (self.tangent @ (inverse @ (inverse.T @ gradient)))
         of_influence = np.abs(np.fft.rfft(influence, samples))
         bound = 2.0 / samples * float(of_influence @ self._unlucky)
         return Known(value=value, error=bound + _ROUND_OFF * abs(value))
 
     @cached_property
-    def _tangent(self) -> FloatArray:
+    def tangent(self) -> FloatArray:
         """Derivatives of the model by coefficients, ω and ν, (samples, all)."""
         return np.hstack([self.columns, _slopes(self.time, self.columns, self.coefficients)])
 
@@ -141,7 +136,7 @@ class Fit:
     def _inverse(self) -> FloatArray:
         """The weighted tangent's triangle, inverted."""
         root = np.sqrt(self.weights)[:, None]
-        return np.linalg.pinv(np.linalg.qr(root * self._tangent, mode="r"), rcond=1e-12)
+        return np.linalg.pinv(np.linalg.qr(root * self.tangent, mode="r"), rcond=1e-12)
 
     @cached_property
     def _unlucky(self) -> FloatArray:
@@ -192,7 +187,8 @@ def _descend(
 
     fit = at(rates)
     for _ in range(most):
-        step = fit.newton_step()
+        # The change that the linearized model asks for, coefficients free.
+        step = _solve(fit.tangent, fit.remainder, weights)[fit.coefficients.size :]
         # Beyond a tenth of a turn over the window the linearization means nothing.
         step /= max(1.0, float(np.abs(step).max()) / 0.6)
         for _ in range(5):

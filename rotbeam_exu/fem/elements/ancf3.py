@@ -95,7 +95,7 @@ class Ancf3(Sheared, SectionSlopeNodes):
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=3)
         body = _Row(self, mesh)
         nodes = self.add_nodes(mbs, mesh.positions)
-        add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body.force, body.tangent)
+        add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body)
         turning = add_point_masses(mbs, nodes, mesh)
         return Chain(nodes=nodes, elastic_energy=body.energy, turning=turning)
 

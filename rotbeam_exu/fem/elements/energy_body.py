@@ -58,21 +58,17 @@ class Assembly:
 
 
 def add_energy_body(
-    mbs: exudyn.MainSystem,
-    nodes: Sequence[exudyn.NodeIndex],
-    mass: sparse.csr_array,
-    force: Callable[[FloatArray], FloatArray],
-    tangent: Callable[[FloatArray], FloatArray],
+    mbs: exudyn.MainSystem, nodes: Sequence[exudyn.NodeIndex], mass: sparse.csr_array, row: Any
 ) -> None:
     """Add M e'' + f(e) = 0 over the coordinates e of `nodes`, reference included.
 
-    `force` returns f, the gradient of the elastic energy, and `tangent` its derivative as
+    `row.force` returns f, the gradient of the elastic energy, and `row.tangent` its derivative as
     triplets to be added up.
     """
     add_force(
         mbs, nodes,
-        force=lambda t, e, rates: -force(e),
-        derivatives=lambda t, e: [(tangent(e), -1.0, 0.0)],
+        force=lambda t, e, rates: -row.force(e),
+        derivatives=lambda t, e: [(row.tangent(e), -1.0, 0.0)],
         mass=mass,
     )  # fmt: skip
 

@@ -41,7 +41,7 @@ class _LinearFrames(SlopeNodes, abstract=True):
         """Add one body for the whole beam, along the x axis."""
         row = self.row(beam, elements)
         nodes = self.add_nodes(mbs, row.reference[::4])
-        add_energy_body(mbs, nodes, row.mass, row.force, row.tangent)
+        add_energy_body(mbs, nodes, row.mass, row)
         return Chain(nodes=nodes, elastic_energy=row.energy)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
