@@ -143,22 +143,19 @@ def torque_of(
 
 
 def hold_root(
-    mbs: exudyn.MainSystem, chain: Chain, element: Formulation
-) -> list[exudyn.ObjectIndex]:
-    """Hold the root at its reference values, its place and its direction; return the constraint."""
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, *, turning: bool = False
+) -> exudyn.ObjectIndex:
+    """Hold the root's place and, unless it is turning, its direction; return the constraint."""
     root = chain.reference(mbs)[0]
-    rows = np.vstack((np.eye(element.dimensions, root.size), element.held(root)))
-    return [_hold(mbs, chain, rows)]
-
-
-def _hold(mbs: exudyn.MainSystem, chain: Chain, rows: FloatArray) -> exudyn.ObjectIndex:
-    """Hold the root's coordinates at their reference values in the directions of `rows`."""
+    rows = np.eye(element.dimensions, root.size)
+    if not turning:
+        rows = np.vstack((rows, element.held(root)))
     return mbs.AddObject(
         items.ObjectConnectorCoordinateVector(
             markerNumbers=_markers(mbs, chain),
             scalingMarker0=np.zeros((len(rows), 0)),
             scalingMarker1=rows,
-            offset=rows @ chain.reference(mbs)[0],
+            offset=rows @ root,
         )
     )
 
@@ -177,9 +174,7 @@ def prescribe_rotation(
     Their rows are those of the place, and then those of the direction.
     """
     root = chain.reference(mbs)[0]
-    constraints = []
-    if not radius:
-        constraints.append(_hold(mbs, chain, np.eye(element.dimensions, root.size)))
+    constraints = [] if radius else [hold_root(mbs, chain, element, turning=True)]
     # Each constraint holds a few coordinates, the same at every angle.
     clamp = _clamp(element, root, radius)
     held = [np.flatnonzero(row).tolist() for row in clamp(1.0)[0]]

@@ -199,7 +199,7 @@ def add_rotating_beam(
         if frame == "inertial":
             constraints = drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
         else:
-            constraints = drive.hold_root(mbs, chain, model)
+            constraints = [drive.hold_root(mbs, chain, model)]
             drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(beam))
             model.add_spin_forces(mbs, chain, beam, rotation)
         seen = rotation.angle if frame == "inertial" else lambda t: 0.0
