@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import NoneType
 from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
@@ -82,16 +82,11 @@ def require_keys(value: Any, told: Any = _DOCUMENT, title: str = "the file") -> 
         return
     if not isinstance(value, dict):
         raise ValueError(f"write {title} as a table")
-    fitting = [
-        one
-        for one in tables
-        if "kind" not in one.required or value.get("kind") in get_args(one.required["kind"])
-    ]
-    if not fitting:
-        return  # of no known kind, which `from_description` refuses
+    if _TELLING_ITS_KIND in tables:
+        return
     # Of alternatives the one whose keys are there.
     required, optional = min(
-        fitting, key=lambda one: (len(one.required.keys() - value), -len(one.required))
+        tables, key=lambda one: (len(one.required.keys() - value), -len(one.required))
     )
     known = {**required, **optional}
     for key, part in value.items():
@@ -110,12 +105,13 @@ def _tables(told: Any) -> tuple[Table, ...]:
     if isinstance(told, Table):
         return (told,)
     if isinstance(told, type) and issubclass(told, Described):
-        kinds = kinds_of(told)
-        if told.__name__ in kinds:
-            return (table_of(told),)
-        return tuple(map(_with_kind, kinds.values()))
+        return (table_of(told) if told.__name__ in kinds_of(told) else _TELLING_ITS_KIND,)
     parts = told if isinstance(told, tuple) else get_args(told)
     return tuple(table for one in parts for table in _tables(one))
+
+
+_TELLING_ITS_KIND = Table({"kind": str}, {})
+"""A table of a load or a shape, which `from_description` checks."""
 
 
 def schema() -> dict[str, Any]:
@@ -148,8 +144,11 @@ def _schema_of(told: Any) -> dict[str, Any]:
         return {"const": get_args(told)[0]}
     if not isinstance(told, tuple) and told in _TYPES:
         return {"type": _TYPES[told]}
-    parts = (one for one in get_args(told) if one not in (NoneType, Ellipsis))
-    several = [_schema_of(one) for one in _tables(told) or dict.fromkeys(parts)]
+    parts: Iterable[Any] = told if isinstance(told, tuple) else dict.fromkeys(get_args(told))
+    if isinstance(told, type) and issubclass(told, Described):
+        kinds = kinds_of(told)
+        parts = [table_of(told)] if told.__name__ in kinds else map(_with_kind, kinds.values())
+    several = [_schema_of(one) for one in parts if one not in (NoneType, Ellipsis)]
     choice = several[0] if len(several) == 1 else {"anyOf": several}
     if get_origin(told) in (list, tuple, Sequence):
         return {"type": "array", "items": choice}

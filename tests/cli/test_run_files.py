@@ -112,7 +112,7 @@ def test_the_file_reaches_the_other_commands(call, config, reached):
         ("motion = 3", "write [motion] as a table"),
         ("loads = 3", "write each [[loads]] as a table"),
         ("[[loads]]\nkind = 'Storm'", "'Storm' is no known Load"),
-        ("[[loads]]\nkind = 'TipForce'\nsize = 1.0", "unknown key 'size' in [[loads]]"),
+        ("[[loads]]\nkind = 'TipForce'\nsize = 1.0", "this is no TipForce"),
         ("[movement]\nomega = 6", "unknown key 'movement'"),
         ("", "has no table [beam]"),
     ],
