@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from analytic import AnyBlade
 from analytic.input_checks import finite_number, whole_number
@@ -77,12 +76,12 @@ class RotatingBeam:
 
     def add_torque_sensor(self, mbs: exudyn.MainSystem) -> exudyn.SensorIndex:
         """Add a sensor of the clamp's torque, stored in the sensor itself."""
-
-        def read(mbs: Any, t: float, sensors: Any, factors: Any, configuration: Any) -> list[float]:
-            return [self.torque(mbs, t)]
-
         return mbs.AddSensor(
-            items.SensorUserFunction(sensorUserFunction=read, storeInternal=True, writeToFile=False)
+            items.SensorUserFunction(
+                sensorUserFunction=lambda mbs, t, *others: [self.torque(mbs, t)],
+                storeInternal=True,
+                writeToFile=False,
+            )
         )
 
     def solver_settings(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from traceback import format_exception
 from typing import Any
 
 import numpy as np
@@ -108,21 +109,12 @@ def solve(
     except BaseException as error:
         if interruption is not None:
             raise interruption from None
-        if "KeyboardInterrupt" in _chain_of(error):
+        if any("KeyboardInterrupt" in one for one in format_exception(error, limit=0)):
             raise KeyboardInterrupt from None
         return error
     if progress is not None:
         progress(1.0)
     return None
-
-
-def _chain_of(error: BaseException | None) -> str:
-    """Names and texts of an error and of what caused it."""
-    text = ""
-    while error is not None:
-        text += f"{type(error).__name__} {error} "
-        error = error.__cause__ or error.__context__
-    return text
 
 
 @dataclass(frozen=True, kw_only=True)
