@@ -194,7 +194,9 @@ def add_rotating_beam(
     if on_body:
         constraints, torque = drive.clamp_to_body(mbs, chain, model, clamp, azimuth)
     else:
-        rotation = restated(rippled(clamp, loads), azimuth=azimuth)
+        rotation = rippled(clamp, loads)
+        if azimuth:
+            rotation = restated(rotation, azimuth=azimuth)
         if frame == "inertial":
             constraints = drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
         else:
