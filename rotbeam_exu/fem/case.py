@@ -31,19 +31,7 @@ from .elements import Formulation, formulation, require_modeled
 class RunCase:
     """One run of the beam: the only place where one is validated and its element looked up.
 
-    Parameters
-    ----------
-    beam : Beam or Blade
-    spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
-    element : str or Formulation
-        A name becomes the formulation.
-    elements, duration, step, frame, loads
-        As in `simulate`; NumPy's numbers become Python's.
-
-    Raises
-    ------
-    ValueError, TypeError
-        If an input is refused.
+    Fields are as in `simulate`; a name becomes the formulation, NumPy's numbers become Python's.
     """
 
     beam: AnyBlade

@@ -30,18 +30,7 @@ _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re
 
 @dataclass(frozen=True, kw_only=True)
 class RunFile:
-    """Content of a file about a run.
-
-    Attributes
-    ----------
-    beam : Beam or Blade
-        The paper's beam, where the file has none.
-    motion : dict
-        `omega` [rad/s] and `ramp_time` [s], if the file holds them.
-    loads : sequence of Load
-    numerics : dict
-        `element`, `elements`, `step` [s], `duration` [s] and `frame`, if it holds them.
-    """
+    """Content of a file about a run, as far as it has any; the paper's beam where it has none."""
 
     beam: AnyBlade
     motion: Mapping[str, float] = field(default_factory=dict)
@@ -94,15 +83,7 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
 
     [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
     duration [s] and frame; each [[loads]] the kind of a load and its fields. A file with one of
-    these may do without a beam, unless it `needs_beam`.
-
-    Raises
-    ------
-    ValueError
-        If `load_beam` refuses the file, or a key is unknown or has a value that is refused; the
-        sentence names the file and the key.
-    FileNotFoundError
-        If there is no such file.
+    these may do without a beam, unless it `needs_beam`. Errors are those of `load_beam`.
     """
     source = Path(path)
     document = _read_toml(source)

@@ -26,13 +26,7 @@ FORMULATIONS = {cls.name: cls for cls in _ELEMENTS}
 
 
 def formulation(element: str | Formulation) -> Formulation:
-    """Return the formulation called `element`; a Formulation is passed through.
-
-    Raises
-    ------
-    ValueError
-        If the name is not known: the sentence says which are.
-    """
+    """Return the formulation called `element`, or say which are known; pass a Formulation."""
     if not isinstance(element, str):
         try:  # whether it hashes, and a file can hold it
             _ = hash(element), describe(element)
@@ -54,10 +48,7 @@ def formulation(element: str | Formulation) -> Formulation:
 def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial") -> None:
     """Refuse a blade that the formulation does not model, or not in this frame.
 
-    Raises
-    ------
-    ValueError
-        It names the property of the blade, and the formulations that take it.
+    The sentence names the property of the blade, and the formulations that take it.
     """
     model.require_section(beam)
     if frame not in ("inertial", "rotating"):

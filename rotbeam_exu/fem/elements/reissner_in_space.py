@@ -166,18 +166,8 @@ _STEPS = _STEP * np.stack((np.eye(14)[_TURNS], -np.eye(14)[_TURNS]))
 class _Row:
     """A row of elements: its unloaded line, sections, strains and inertia against rotation.
 
-    Attributes
-    ----------
-    length : float
-        Of an element.
-    reference : ndarray (nodes, 7)
-        Coordinates of the unloaded blade.
-    mass : ndarray (elements,)
-    stiffness : ndarray (elements, 6)
-        EA, GA, GA, GJ, EI out of the plane and EI in it.
-    inertia : ndarray (elements, 3)
-        ρI_p, ρI out of the plane and ρI in it [kg m].
-    add : Assembly
+    Stiffness (elements, 6) is EA, GA, GA, GJ, EI out of the plane and EI in it; inertia
+    (elements, 3) is ρI_p, ρI out of the plane and ρI in it [kg m].
     """
 
     def __init__(self, element: SpaceExact, blade: AnyBlade, elements: int) -> None:
