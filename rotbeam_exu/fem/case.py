@@ -96,11 +96,6 @@ class RunCase:
         return self.spin_up.omega
 
     @property
-    def fastest(self) -> float:
-        """Highest angular velocity [rad/s]."""
-        return self.spin_up.fastest
-
-    @property
     def ramp_time(self) -> float:
         """Time from rest to the steady angular velocity [s]; zero for a beam that turns already."""
         return float(getattr(self.spin_up, "ramp_time", 0.0))
@@ -119,7 +114,7 @@ class RunCase:
     def steps_and_sampling(self) -> tuple[int, int]:
         """Number of steps, and of how many one is kept."""
         return checked_steps(
-            self.beam, self.fastest, self.ramp_time, self.duration, self.step,
+            self.beam, self.spin_up.fastest, self.ramp_time, self.duration, self.step,
             [self.omega if one.frequency is None else one.frequency for one in self.loads],
         )  # fmt: skip
 

@@ -60,10 +60,9 @@ class Loading:
         shifts = np.tile(np.eye(model.dimensions, per_node), size // per_node)
         self._pushes = [(load, np.asarray(shifts @ acted_on[onto])) for load, onto in forces]
         self._drag, self._model, self._setting = external * of_length, model, model.setting(beam)
-        self._acts = bool(forces) or external > 0.0
 
     def __bool__(self) -> bool:
-        return self._acts
+        return bool(self._pushes) or self._drag.nnz > 0
 
     def forces(self, t: FloatArray, angle: FloatArray, setting: float | None = None) -> FloatArray:
         """Return the nodal forces of all loads in the frame of the clamp, (samples, n).

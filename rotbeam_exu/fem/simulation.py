@@ -147,7 +147,7 @@ def run_case(
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return what `simulate` does, of a case."""
-    warn_if_rpm(case.beam, case.fastest)
+    warn_if_rpm(case.beam, case.spin_up.fastest)
     units, model = Units.of(case.beam, case.step), case.model
     kept = points_of_beam("stations", stations, case.beam.length)
     with exudyn_system() as mbs:

@@ -23,7 +23,7 @@ from analytic.parts import Line
 from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 
-from . import beam_tables as tables
+from .beam_tables import BEAM, require_keys
 
 _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
 
@@ -90,7 +90,7 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
     try:
         if "beam" in document and "blade" in document:
             raise ValueError("it has both [beam] and [blade]: keep one")
-        tables.require_keys(document)
+        require_keys(document)
         if "blade" in document:
             beam = _blade(document["blade"], source.parent)
         elif "beam" in document:
@@ -98,7 +98,7 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
         elif document and not needs_beam:
             beam = Beam.reference()
         else:
-            raise ValueError(f"it has no table [beam] with {', '.join(tables.BEAM.required)}")
+            raise ValueError(f"it has no table [beam] with {', '.join(BEAM.required)}")
         run = {
             name: {key: _number(key, value) for key, value in document[name].items()}
             for name in ("motion", "numerics")
@@ -137,7 +137,7 @@ def _read_toml(source: Path) -> dict[str, Any]:
 def _beam(table: dict[str, Any]) -> AnyBlade:
     if "axial_stiffness" in table:
         return Beam.from_stiffness(**table)
-    material = {name: table[name] for name in tables.BEAM.required}
+    material = {name: table[name] for name in BEAM.required}
     return _shaped(Beam(**material), table.get("shape"))
 
 

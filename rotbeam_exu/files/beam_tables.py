@@ -31,40 +31,29 @@ def table_of(call: Callable[..., Any]) -> Table:
     return Table(asked, {one.name: hints[one.name] for one in known if one.name not in asked})
 
 
-_OF_SECTION = {**table_of(Section).required, **table_of(Section).optional}
-_STIFFNESS = ("axial_stiffness", "bending_stiffness", "mass_per_length")
-
 BEAM = Table(table_of(Beam).required, {"shape": SectionShape})
-BEAM_BY_STIFFNESS = Table(dict.fromkeys(("length", *_STIFFNESS), float), {})
-SECTION = Table(
-    {name: _OF_SECTION[name] for name in _STIFFNESS},
-    {name: _OF_SECTION[name] for name in ("rotary_inertia", "out_of_plane")}
-    | {"shape": SectionShape},
-)
-STATIONS = table_of(Blade.from_stations)
-STATIONS_OF_SHAPES = table_of(Blade.from_shapes)
-STATIONS_OF_FILE = Table({"file": str}, {})
-DAMPING_BY_RATIO = Table({"ratio": float}, {})
+_SECTION = table_of(Section)
+_SHAPED = Table(_SECTION.required, {**_SECTION.optional, "shape": SectionShape})
+_STATIONS = table_of(Blade.from_stations), table_of(Blade.from_shapes), Table({"file": str}, {})
 _BLADE = {
     "hub_radius": float,
     "setting_angle": float,
     "point_mass": list[PointMass],
-    "damping": (table_of(Damping), DAMPING_BY_RATIO),
+    "damping": (table_of(Damping), Table({"ratio": float}, {})),
     "line": table_of(Line),
 }
-BLADE = Table({"length": float, "section": SECTION}, _BLADE)
-BLADE_AT_STATIONS = Table({"stations": (STATIONS, STATIONS_OF_SHAPES, STATIONS_OF_FILE)}, _BLADE)
-MOTION = Table({}, {"omega": float, "ramp_time": float})
-NUMERICS = Table(
-    {}, {"element": str, "elements": int, "step": float, "duration": float, "frame": str}
-)
 _DOCUMENT = Table(
     {},
     {
-        "beam": (BEAM, BEAM_BY_STIFFNESS),
-        "blade": (BLADE, BLADE_AT_STATIONS),
-        "motion": MOTION,
-        "numerics": NUMERICS,
+        "beam": (BEAM, Table(dict.fromkeys(("length", *_SECTION.required), float), {})),
+        "blade": (
+            Table({"length": float, "section": _SHAPED}, _BLADE),
+            Table({"stations": _STATIONS}, _BLADE),
+        ),
+        "motion": Table({}, {"omega": float, "ramp_time": float}),
+        "numerics": Table(
+            {}, {"element": str, "elements": int, "step": float, "duration": float, "frame": str}
+        ),
         "loads": list[Load],
     },
 )

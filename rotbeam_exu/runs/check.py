@@ -202,17 +202,10 @@ def balanced_energy(run: xr.Dataset) -> tuple[FloatArray, str]:
 def check_run(run: xr.Dataset) -> str:
     """Return "passed", or raise with the first bad time, the number and the remedy.
 
-    Parameters
-    ----------
-    run : Dataset
-        As made by `simulate`.
-
-    Raises
-    ------
-    SimulationError
-        If the run did not reach its end, holds a number that is not finite, leaves the reach of the
-        beam, strains it beyond the linear law, or violates the clamp. If it does not conserve the
-        Jacobi energy E - ω L_z in steady rotation, but for the energy supplied.
+    A SimulationError, if a run of `simulate` did not reach its end, holds a number that is not
+    finite, leaves the reach of the beam, strains it beyond the linear law, or violates the clamp.
+    If it does not conserve the Jacobi energy E - ω L_z in steady rotation, but for the energy
+    supplied.
     """
     time = np.asarray(run["time"], dtype=np.float64)
     attrs = run.attrs

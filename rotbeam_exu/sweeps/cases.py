@@ -69,16 +69,13 @@ class Cache:
 
 def cache_of(folder: str | os.PathLike[str], element: str | Formulation) -> Cache | None:
     """Return the cache in a folder; none, with a warning, of an element that no file defines."""
-    model = formulation(element)
-    made_by = maker(model)
-    if made_by is None:
-        cls = type(model)
-        warn(
-            f"files do not determine {cls.__qualname__}, so its cases are not kept in the cache: "
-            "define it at the top level of a module on file"
-        )
-        return None
-    return Cache(folder, made_by=made_by)
+    if made_by := maker(element):
+        return Cache(folder, made_by=made_by)
+    warn(
+        f"files do not determine {type(element).__qualname__}, so its cases are not kept in the "
+        "cache: define it at the top level of a module on file"
+    )
+    return None
 
 
 def maker(element: str | Formulation) -> dict[str, str] | None:
