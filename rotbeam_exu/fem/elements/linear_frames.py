@@ -144,8 +144,7 @@ class FrameRow:
         self.mass = Assembly(frames * cells, inner=1, per_node=4).matrix(mass)
         self._stiffness = inside.matrix(stiffness).toarray()
         along = length * np.arange(self.assembly.nodes)
-        zero, one = np.zeros_like(along), np.ones_like(along)
-        self.reference = np.stack([along, zero, one, zero], axis=1).ravel()
+        self.reference = np.array([[x, 0.0, 1.0, 0.0] for x in along]).ravel()
         self._shape = self.reference[: inside.size]  # X of every frame
         # The angle of a frame is that of the vector p = P e.
         self._direction = np.zeros((2, inside.size))
@@ -214,9 +213,8 @@ class FrameRow:
             residual = self.force(e) - omega**2 * mass @ e
             e[free] -= np.linalg.solve(effective[np.ix_(free, free)], residual[free])
         effective = self._tangent_matrix(e) - omega**2 * mass
-        pick = np.ix_(free, free)
-        lowest = linalg.eigh(effective[pick], mass[pick], eigvals_only=True, subset_by_index=[0, 0])
-        return float(lowest[0])
+        pair = effective[np.ix_(free, free)], mass[np.ix_(free, free)]
+        return float(linalg.eigh(*pair, eigvals_only=True, subset_by_index=[0, 0])[0])
 
     def _tangent_matrix(self, e: FloatArray) -> FloatArray:
         values = self.tangent(e)[:, 2].reshape(*self.assembly.index.shape, -1)
