@@ -17,17 +17,27 @@ class Lazily:
 
 
 if TYPE_CHECKING:
-    from scipy import integrate, interpolate, linalg, ndimage, optimize, signal, sparse, special
+    from scipy import (
+        integrate,
+        interpolate,
+        linalg,
+        ndimage,
+        optimize,
+        signal,
+        sparse,
+        spatial,
+        special,
+    )
 else:
-    integrate, interpolate, linalg, ndimage, optimize, signal, sparse, special = (
+    integrate, interpolate, linalg, ndimage, optimize, signal, sparse, spatial, special = (
         Lazily(f"scipy.{name}")
         for name in (
             "integrate", "interpolate", "linalg", "ndimage", "optimize", "signal", "sparse",
-            "special",
+            "spatial", "special",
         )
     )  # fmt: skip
 
 __all__ = [
     "Lazily", "integrate", "interpolate", "linalg", "ndimage", "optimize", "signal", "sparse",
-    "special",
+    "spatial", "special",
 ]  # fmt: skip

@@ -1,6 +1,6 @@
 from .datasets import dataset_of as dataset_of
 from .fem.linearization import natural_frequencies as natural_frequencies
-from .fem.out_of_plane import kicked as kicked
+from .fem.simulation import kicked as kicked
 from .fem.simulation import simulate as simulate
 from .files.results import load as load
 from .files.results import save as save

@@ -28,16 +28,9 @@ def dataset(
     coords: Mapping[str, Any],
     attrs: Mapping[str, Any] | None = None,
 ) -> xr.Dataset:
-    """Return a Dataset of labeled numbers.
+    """Return a Dataset of labeled numbers: of dims, values and label by name.
 
-    Parameters
-    ----------
-    variables : mapping
-        Dims, values and label by name.
-    coords : mapping
-        Values and label by dimension, or values alone.
-    attrs : mapping, optional
-        All else that is known.
+    Coordinates are values and label by dimension, or values alone; attributes are all else.
     """
     return xr.Dataset(
         {name: (dims, values, labeled(label)) for name, (dims, values, label) in variables.items()},

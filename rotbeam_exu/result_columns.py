@@ -6,7 +6,6 @@ Other kinds have a function in `datasets`.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
 from operator import attrgetter
 from typing import Any
 
@@ -63,14 +62,10 @@ def _part(name: str, k: int, dims: Dims, label: str) -> Column:
     return dims, label, lambda found: getattr(found, name)[..., k]
 
 
-def _each(what: str, name: str, label: str, kind: type = float) -> Column:
-    """Return a column over the crossings, or the tongues, of a result."""
+def _each(what: str, name: str, label: str, kind: type | None = float) -> Column:
+    """Return a column over the crossings, the tongues or the rows of a result."""
     of, all_of = attrgetter(name), attrgetter(f"{what}s")
     return what, label, lambda found: np.array([*map(of, all_of(found))], kind)
-
-
-def _of_rows(name: str, table: PaperTable) -> list[str]:
-    return [getattr(row, name) for row in table.rows]
 
 
 def _columns(dims: Dims, **labels: str) -> dict[str, Column]:
@@ -187,7 +182,7 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
     ),
     PaperTable: (
         {
-            name: ("row", name, partial(_of_rows, name))
+            name: _each("row", name, name, None)
             for name in ("quantity", "printed", "derived", "difference", "note")
         },
         "", ("number", "title"),

@@ -16,8 +16,8 @@ from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive
 from analytic.loads import Load
 
-from ..fem.lazily import Frame
 from ..files.beam_file import RunFile, load_run_file
+from ..runs import Frame
 from .options import Dampings, Loads, Whole
 
 if TYPE_CHECKING:

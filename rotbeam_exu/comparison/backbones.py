@@ -11,10 +11,10 @@ from numpy.linalg import norm
 from analytic import Beam, periodic_orbits, reduced_model
 from analytic.exact.plane.growth import planar_note
 
-from ..fem.lazily import Frame
 from ..labels import AMPLITUDE, OMEGA, dataset, labeled
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
+from ..runs import Frame
 from ..runs.attributes import beam_attributes
 from ..sweeps.grid import sweep
 from .theory import RATIO, beyond_range

@@ -14,6 +14,7 @@ from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation, SpeedChange
 
+from ..runs import Frame
 from ..runs.attributes import (
     beam_attributes,
     beam_of,
@@ -24,26 +25,13 @@ from ..runs.attributes import (
 )
 from ..runs.check import checked_steps
 from .elements import Formulation, formulation, require_modeled
-from .lazily import Frame
 
 
 @dataclass(frozen=True, kw_only=True)
 class RunCase:
     """One run of the beam: the only place where one is validated and its element looked up.
 
-    Parameters
-    ----------
-    beam : Beam or Blade
-    spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
-    element : str or Formulation
-        A name becomes the formulation.
-    elements, duration, step, frame, loads
-        As in `simulate`; NumPy's numbers become Python's.
-
-    Raises
-    ------
-    ValueError, TypeError
-        If an input is refused.
+    Fields are as in `simulate`; a name becomes the formulation, NumPy's numbers become Python's.
     """
 
     beam: AnyBlade
@@ -108,11 +96,6 @@ class RunCase:
         return self.spin_up.omega
 
     @property
-    def fastest(self) -> float:
-        """Highest angular velocity [rad/s]."""
-        return self.spin_up.fastest
-
-    @property
     def ramp_time(self) -> float:
         """Time from rest to the steady angular velocity [s]; zero for a beam that turns already."""
         return float(getattr(self.spin_up, "ramp_time", 0.0))
@@ -131,7 +114,7 @@ class RunCase:
     def steps_and_sampling(self) -> tuple[int, int]:
         """Number of steps, and of how many one is kept."""
         return checked_steps(
-            self.beam, self.fastest, self.ramp_time, self.duration, self.step,
+            self.beam, self.spin_up.fastest, self.ramp_time, self.duration, self.step,
             [self.omega if one.frequency is None else one.frequency for one in self.loads],
         )  # fmt: skip
 

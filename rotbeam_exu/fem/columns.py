@@ -1,39 +1,52 @@
-"""The columns of a run: everything it is asked for, in SI units, as seen from the clamp."""
+"""The columns of a run: everything it is asked for, in SI units, as seen from the clamp.
+
+Loads in the sections follow from d'Alembert's principle, as those of the exact blade: from all
+loads f outboard and the mesh's own accelerations A. With the section's axes d and its second
+moments of mass G,
+
+    F = ∫ (f - m A) dx,      M = ∫ [r × (f - m A) - Σ G_kl d_k × d̈_l] dx - r_s × F.
+"""
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from analytic import AnyBlade
-from analytic.arrays import FloatArray
-from analytic.lazily import interpolate
+from analytic.arrays import FloatArray, few_at_once
+from analytic.exact.beam.kinematics import set_at
+from analytic.exact.beam.state import SectionLoads
+from analytic.exact.space.unit import space_unit
+from analytic.lazily import interpolate, sparse
+from analytic.quadrature import gauss_points
+from analytic.theory import Theory
 
+from ..labels import dataset, labeled
 from ..lazily import xr
 from ..runs.shape import shape_of
 from .case import RunCase
+from .mesh import Mesh
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
-from .stations import section_loads
 from .units import Units
+
+_POINTS = 4  # between two ends, by which a cable's mass matrix is exact
+_INSTANT = 1e-4  # of √(mL³/EI), for the differences that tell how sections turn
 
 
 def columns(
     case: RunCase,
     units: Units,
-    beam: AnyBlade,
     built: RotatingBeam,
     trajectory: Trajectory,
     stations: FloatArray,
 ) -> xr.Dataset:
-    """Return the samples of a run; `beam` is the case's in `units`, as is the trajectory.
-
-    `stations` are over L.
-    """
-    model, setting, space = case.model, case.model.setting(beam), case.model.leaves_plane
+    """Return the samples of a run, whose trajectory is in `units`; `stations` are over L."""
+    model, beam, space = case.model, built.beam, case.model.leaves_plane
     # Counted, not added up: the times of the steps asked for.
     time = case.step * np.rint(trajectory.time * units.time / case.step)
     coordinates, absolute = trajectory.coordinates, trajectory.velocities
-    elastic = trajectory.elastic_energy
+    elastic, setting = trajectory.elastic_energy, model.setting(beam)
     angle, rate = case.rotation.angle(time), units.time * case.rotation.rate(time)
     if case.frame == "inertial":
         coordinates = model.turned(coordinates, -angle) - angle[:, None, None] * model.angles
@@ -53,59 +66,57 @@ def columns(
     off = coordinates[:, 0] - reference
     strain = np.abs(model.axial_strain(beam, coordinates)).max(axis=1)
     values = {
-        "q": (axis[:, -1, 1], "m", "tip displacement q"),
-        "q_dot": (moving[:, -1, 1], "m/s", "tip velocity dq/dt"),
+        "q": (axis[:, -1, 1], "tip displacement q [m]"),
+        "q_dot": (moving[:, -1, 1], "tip velocity dq/dt [m/s]"),
     }
     if space:
         tip = axis[:, -1, 2] - (reference[:3] @ frame)[2]
-        values["w"] = tip, "m", "tip displacement out of the plane"
-        values["w_dot"] = moving[:, -1, 2], "m/s", "tip velocity out of the plane"
+        values["w"] = tip, "tip displacement out of the plane [m]"
+        values["w_dot"] = moving[:, -1, 2], "tip velocity out of the plane [m/s]"
     values |= {
-        "tip_x": (seen.real, "m", "tip position along inertial x"),
-        "tip_y": (seen.imag, "m", "tip position along inertial y"),
-        "angle": (angle, "rad", "angle of the clamp"),
-        "kinetic_energy": (kinetic, "J", "kinetic energy"),
-        "elastic_energy": (elastic, "J", "elastic energy"),
-        "jacobi_energy": (kinetic + elastic - rate * momentum, "J", "Jacobi energy E - ω L_z"),
+        "tip_x": (seen.real, "tip position along inertial x [m]"),
+        "tip_y": (seen.imag, "tip position along inertial y [m]"),
+        "angle": (angle, "angle of the clamp [rad]"),
+        "kinetic_energy": (kinetic, "kinetic energy [J]"),
+        "elastic_energy": (elastic, "elastic energy [J]"),
+        "jacobi_energy": (kinetic + elastic - rate * momentum, "Jacobi energy E - ω L_z [J]"),
         "clamp_residual": (
-            np.linalg.norm(off[:, : model.dimensions], axis=1), "m", "position error of the clamp"
+            np.linalg.norm(off[:, : model.dimensions], axis=1), "position error of the clamp [m]"
         ),
         "direction_residual": (
-            np.abs(off @ model.held(reference).T).max(axis=1), "1", "direction error of the clamp"
+            np.abs(off @ model.held(reference).T).max(axis=1), "direction error of the clamp"
         ),
-        "axial_strain": (strain, "1", "largest axial strain along the beam"),
+        "axial_strain": (strain, "largest axial strain along the beam"),
     }  # fmt: skip
     values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], frame)
     t, rate_dot = time / units.time, units.time**2 * case.rotation.acceleration(time)
     if setting != 1.0:
         across = _torque_across(built, setting, t, angle, coordinates, relative, rate, rate_dot)
-        torque, unit, label = values["clamp_torque"]
-        values["clamp_torque"] = setting * torque + across, unit, label
+        torque, label = values["clamp_torque"]
+        values["clamp_torque"] = setting * torque + across, label
     if case.exchanges_energy:
         power = built.loading.power(t, angle, relative) - rate_dot * momentum
         if built.chain.dissipation is not None:
             power = power - built.chain.dissipation(coordinates, relative)
-        values["supplied_energy"] = (
-            _integral(t, power), "J", "supplied share of the Jacobi energy"
-        )  # fmt: skip
+        values["supplied_energy"] = _integral(t, power), "supplied share of the Jacobi energy [J]"
     if model.twists:
         before, turn = model.sections(trajectory.reference[-1]), model.sections(coordinates[:, -1])
-        turned = frame.T @ turn @ before.T @ frame
-        values["twist"] = twist(turned), "rad", "twist of the tip's section about its normal"
+        turned = twist(frame.T @ turn @ before.T @ frame)
+        values["twist"] = turned, "twist of the tip's section about its normal [rad]"
     scale = {"m": units.length, "m/s": units.velocity, "J": units.energy}
     scale |= {"N": units.energy / units.length, "N m": units.energy}
-    run = xr.Dataset(
+    run = dataset(
         {
-            name: ("time", scale.get(unit, 1.0) * column, {"units": unit, "long_name": label})
-            for name, (column, unit, label) in values.items()
+            name: ("time", scale.get(labeled(label)["units"], 1.0) * column, label)
+            for name, (column, label) in values.items()
         },
-        coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
+        {"time": (time, "time [s]")},
     )
     if stations.size:
         states = coordinates, relative, absolute, trajectory.accelerations
         run = run.merge(shape_of(section_loads(case, units, built, stations, time, *states)))
     if space:
-        known = {"units": "m", "long_name": "positions of the nodes in the frame of the clamp"}
+        known = labeled("positions of the nodes in the frame of the clamp [m]")
         run["axis"] = ("time", "node", "direction"), units.length * axis, known
         run = run.assign_coords(direction=["x", "y", "z"])
     return run
@@ -113,7 +124,7 @@ def columns(
 
 def _clamp_loads(
     case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, frame: FloatArray
-) -> dict[str, tuple[FloatArray, str, str]]:
+) -> dict[str, tuple[FloatArray, str]]:
     """Return what the blade exerts on the clamp, whose axes are `frame`, by the multipliers."""
     model, count = case.model, case.model.dimensions
     onto = np.zeros_like(root)
@@ -129,12 +140,12 @@ def _clamp_loads(
         ("moment", "N m", "xyz"[-moment.shape[1] :], moment),
     )
     values = {
-        f"root_{kind}_{axis}": (column, unit, f"{kind} of the blade on the clamp, {axis}")
+        f"root_{kind}_{axis}": (column, f"{kind} of the blade on the clamp, {axis} [{unit}]")
         for kind, unit, axes, along in kinds
         for axis, column in zip(axes, along.T, strict=True)
     }
     torque = -np.sum(onto * model.spun(root), axis=1)
-    values["clamp_torque"] = torque, "N m", "torque of the clamp about the axis of rotation"
+    values["clamp_torque"] = torque, "torque of the clamp about the axis of rotation [N m]"
     return values
 
 
@@ -182,3 +193,119 @@ def _integral(time: FloatArray, power: FloatArray) -> FloatArray:
         spline = interpolate.CubicSpline(time[:count], power[:count]).antiderivative()
         result[:count] = spline(time[:count])
     return result
+
+
+def section_loads(
+    case: RunCase, units: Units, built: RotatingBeam, stations: FloatArray, time: FloatArray,
+    *states: FloatArray,
+) -> SectionLoads:  # fmt: skip
+    """Return the sections of a run at `stations` over L and times [s], and the loads in them [SI].
+
+    `states` (samples, nodes, n) are coordinates, rates relative to the clamp and absolute ones, by
+    the axes of the clamp; and accelerations of the case's frame by its axes.
+    """
+    masses, model, beam = _Masses(case, units, built, stations), case.model, case.beam
+    parts = [
+        masses.loads(time[one], *(state[one] for state in states)) for one in few_at_once(time.size)
+    ]
+    place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
+    # A blade in its plane is set as a whole, one in space along its sections.
+    to_clamp = model.line_frame(built.beam).T if model.twists else set_at(beam.setting_angle)
+    place[..., 0] -= built.beam.hub_radius
+    if not model.leaves_plane:
+        force, moment = force[..., :2], moment[..., 2]
+    return SectionLoads(
+        blade=beam,
+        stations=beam.length * stations,
+        place=units.length * place @ to_clamp.T,
+        section=to_clamp @ section,
+        force=units.energy / units.length * force,
+        moment=units.energy * moment,
+    )
+
+
+class _Masses:
+    """Points of a blade by which its inertia and its loads are added up, then its stations."""
+
+    def __init__(
+        self, case: RunCase, units: Units, built: RotatingBeam, stations: FloatArray
+    ) -> None:
+        beam, model, count = built.beam, case.model, len(built.nodes)
+        self._case, self._units, self._model, self._beam = case, units, model, beam
+        ends = np.union1d(np.linspace(0.0, 1.0, count), stations)
+        inner, weights = gauss_points(_POINTS)
+        dx = np.outer(np.diff(ends), weights).ravel()
+        x = (ends[:-1, None] + np.outer(np.diff(ends), inner)).ravel()
+        at, none = Mesh(blade=beam, elements=1).along(x), np.zeros(1)
+        # Behind the points of the blade come those of its point masses, and the tip.
+        bodies = [(one.position, one.mass, one.inertia) for one in beam.point_masses]
+        places, masses, inertias = np.array(bodies).reshape(-1, 3).T
+        self._x = np.concatenate((x, places / beam.length, none + 1.0))
+        self._weights = {
+            "mass": np.concatenate((at.mass_per_length * dx, masses, none)),
+            "length": np.concatenate((dx, 0.0 * masses, none)),
+            "tip": np.concatenate((0.0 * dx, 0.0 * masses, none + 1.0)),
+        }
+        # Inertia of what turns in its plane is that of a mass along the second axis.
+        self._second = np.zeros((self._x.size, 3, 3))
+        self._second[x.size : -1, 1, 1] = inertias
+        if model.twists:
+            _, own = space_unit(beam).inertia_about(
+                x, Theory(rotary_inertia=True), beam.slenderness
+            )
+            second = 0.5 * np.trace(own) * np.eye(3)[..., None] - own
+            unit = beam.mass_per_length * beam.length**2
+            self._second[: x.size] = np.moveaxis(unit * second * dx, -1, 0)
+        elif model.theory.rotary_inertia:
+            self._second[: x.size, 1, 1] = at.rotary_inertia * dx
+        self._outboard = ((self._x > stations[:, None]) | (self._x == 1.0)).astype(float)
+        spread = model.spread(count, case.elements, beam.length, np.append(self._x, stations))
+        self._spread = sparse.csr_array(spread.reshape(-1, spread.shape[2] * spread.shape[3]))
+
+    def loads(self, time: FloatArray, *states: FloatArray) -> tuple[FloatArray, ...]:
+        """Return places, sections, forces and moments of the stations, of states as above."""
+        case, model, count, per_unit = self._case, self._model, self._x.size, self._units.time
+        e, relative, rates, change = (self._along(state) for state in states)
+        angle, turning = case.rotation.angle(time), np.zeros(3)
+        if case.frame == "inertial":
+            change = model.turned(change, -angle)
+        else:
+            setting = 0.0 if model.twists else self._beam.setting_angle
+            rates, turning = relative, np.array([0.0, math.sin(setting), math.cos(setting)])
+        W = np.multiply.outer(per_unit * case.rotation.rate(time), turning)[:, None]
+        W_dot = np.multiply.outer(per_unit**2 * case.rotation.acceleration(time), turning)[:, None]
+        r, v, v_frame, a = (self._vectors(one) for one in (e, relative, rates, change))
+        a = a + np.cross(W, 2.0 * v_frame + np.cross(W, r)) + np.cross(W_dot, r)
+        f = -self._weights["mass"][:, None] * a[:, :count]
+        f -= self._beam.damping.external * self._weights["length"][:, None] * v[:, :count]
+        for load in self._units.loads(case.loads):
+            if load.acts_on is not None:
+                phase = (load.frequency or 0.0) * time / per_unit
+                push = load.force(phase, angle, model.setting(self._beam))
+                parts = np.stack((push.real, push.imag, load.lift(phase)), axis=-1)
+                f += self._weights[load.acts_on][:, None] * parts[:, None]
+        couple, section = np.cross(r[:, :count], f), model.sections(e)
+        if self._second.any():
+            ahead, d, behind = (
+                np.swapaxes(model.sections(e + h * rates + 0.5 * h**2 * change)[:, :count], -1, -2)
+                for h in (_INSTANT, 0.0, -_INSTANT)
+            )
+            # In its plane only Euler's acceleration turns a section; a set ancf3 has ρI s²w² more.
+            d_ddot = (ahead - 2.0 * d + behind) / _INSTANT**2 + np.cross(W_dot[:, None], d)
+            couple -= np.cross(d, self._second @ d_ddot).sum(axis=-2)
+        place, section = r[:, count:], section[:, count:]
+        force = self._outboard @ f
+        moment = self._outboard @ couple - np.cross(place, force)
+        force, moment = ((one[..., None, :] @ section)[..., 0, :] for one in (force, moment))
+        return place, section, force, moment
+
+    def _along(self, state: FloatArray) -> FloatArray:
+        """Return coordinates or rates at all points and stations, (samples, places, n)."""
+        flat = np.asarray((self._spread @ state.reshape(len(state), -1).T).T)
+        return flat.reshape(len(state), -1, state.shape[-1])
+
+    def _vectors(self, e: FloatArray) -> FloatArray:
+        """Return the vectors (..., 3) that come first in coordinates or rates."""
+        result = np.zeros((*e.shape[:-1], 3))
+        result[..., : self._model.dimensions] = e[..., : self._model.dimensions]
+        return result

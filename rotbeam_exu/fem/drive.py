@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -26,9 +27,9 @@ from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.motion import Rotation
 
+from ..lazily import exudyn, items
 from .elements.energy_body import add_force, add_point_inertias, triplets
 from .elements.formulation import Chain, Formulation
-from .lazily import exudyn, items
 
 Torque = Callable[[Any, float], float]
 """Torque of a clamp on its blade, of a solved system at a time, as user functions have them."""
@@ -142,22 +143,19 @@ def torque_of(
 
 
 def hold_root(
-    mbs: exudyn.MainSystem, chain: Chain, element: Formulation
-) -> list[exudyn.ObjectIndex]:
-    """Hold the root at its reference values, its place and its direction; return the constraint."""
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, *, turning: bool = False
+) -> exudyn.ObjectIndex:
+    """Hold the root's place and, unless it is turning, its direction; return the constraint."""
     root = chain.reference(mbs)[0]
-    rows = np.vstack((np.eye(element.dimensions, root.size), element.held(root)))
-    return [_hold(mbs, chain, rows)]
-
-
-def _hold(mbs: exudyn.MainSystem, chain: Chain, rows: FloatArray) -> exudyn.ObjectIndex:
-    """Hold the root's coordinates at their reference values in the directions of `rows`."""
+    rows = np.eye(element.dimensions, root.size)
+    if not turning:
+        rows = np.vstack((rows, element.held(root)))
     return mbs.AddObject(
         items.ObjectConnectorCoordinateVector(
             markerNumbers=_markers(mbs, chain),
             scalingMarker0=np.zeros((len(rows), 0)),
             scalingMarker1=rows,
-            offset=rows @ chain.reference(mbs)[0],
+            offset=rows @ root,
         )
     )
 
@@ -176,38 +174,26 @@ def prescribe_rotation(
     Their rows are those of the place, and then those of the direction.
     """
     root = chain.reference(mbs)[0]
-    constraints = []
-    if not radius:
-        constraints.append(_hold(mbs, chain, np.eye(element.dimensions, root.size)))
+    constraints = [] if radius else [hold_root(mbs, chain, element, turning=True)]
     # Each constraint holds a few coordinates, the same at every angle.
     clamp = _clamp(element, root, radius)
-    rows_at_1 = clamp(1.0)[0]
-    held = [np.flatnonzero(row).tolist() for row in rows_at_1]
-    # Called seven times a step: nothing is done twice for one t, and numbers are plain.
-    time, gradient, rows = np.nan, rows_at_1, [([(0.0, 0)], 0.0)]
+    held = [np.flatnonzero(row).tolist() for row in clamp(1.0)[0]]
 
-    def turn_to(t: float) -> None:
-        nonlocal time, gradient, rows
-        time = t
+    @lru_cache(maxsize=1)  # called seven times a step, with plain numbers
+    def turned_to(t: float) -> tuple[FloatArray, list[tuple[list[tuple[float, int]], float]]]:
         gradient, target = clamp(rotation.angle(t))
-        rows = [
-            ([(row[i], i) for i in at], d)
-            for at, row, d in zip(held, gradient.tolist(), target.tolist(), strict=True)
-        ]
+        rows = zip(held, gradient.tolist(), target.tolist(), strict=True)
+        return gradient, [([(row[i], i) for i in at], d) for at, row, d in rows]
 
     def residual(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
     ) -> list[float]:
-        if t != time:
-            turn_to(t)
-        return [sum([a * q[i] for a, i in row]) - d for row, d in rows]
+        return [sum([a * q[i] for a, i in row]) - d for row, d in turned_to(t)[1]]
 
     def jacobian(
         mbs: Any, t: float, item: int, q: Any, q_t: Any, velocity_level: bool
     ) -> FloatArray:
-        if t != time:
-            turn_to(t)
-        return gradient
+        return turned_to(t)[0]
 
     turning = items.ObjectConnectorCoordinateVector(
         markerNumbers=_markers(mbs, chain),
@@ -278,7 +264,7 @@ def add_inertial_forces(
         rate, acceleration = rotation.rate(t), rotation.acceleration(t)
         return [(stiff_triplets, rate**2, 0.0), (gyro_triplets, -acceleration, -2.0 * rate)]
 
-    add_force(mbs, chain.nodes, mass.shape[0], force=force, derivatives=derivatives)
+    add_force(mbs, chain.nodes, force=force, derivatives=derivatives)
     add_point_inertias(
         mbs, chain.nodes, chain.turning, lambda t: setting * rotation.acceleration(t)
     )

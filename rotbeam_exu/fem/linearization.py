@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,11 +17,11 @@ from analytic.input_checks import rotation_speed, whole_number
 from analytic.loads import Load
 from analytic.methods.system import inverse_eigenvalues
 
+from ..lazily import exudyn
 from ..runs.check import SimulationError, require_stretch, warn_if_coarse
 from .columns import twist
 from .elements import Formulation, formulation
 from .elements.energy_body import add_force
-from .lazily import exudyn
 from .loading import Loading
 from .rotating_beam import add_rotating_beam
 from .solver import exudyn_system, static_settings
@@ -79,7 +80,12 @@ class Linearization:
         require_steady_state(beam, omega)
         require_stretch(beam)
         model, units = formulation(element), Units.of(beam)
-        unit_beam, rotation = units.beam(undamped(beam)), _Raised(omega * units.time)
+        unit_beam, w_bar = units.beam(undamped(beam)), omega * units.time
+        # A blade that bends in rotation has several equilibria: that from rest is followed, by a
+        # speed that the static solution raises from zero at t = 0 to w̄ at 1.
+        rotation: Any = SimpleNamespace(
+            angle=lambda t: 0.0, rate=lambda t: w_bar * t, acceleration=lambda t: 0.0
+        )
         settings = static_settings(unit_beam, elements)
         with exudyn_system() as mbs:
             built = add_rotating_beam(
@@ -90,7 +96,7 @@ class Linearization:
                 whole = loading.forces(np.zeros(1), np.zeros(1)).ravel()
                 nothing = [(np.zeros((1, 3)), 0.0, 0.0)]
                 add_force(
-                    mbs, built.nodes, whole.size, force=lambda t, e, rates: t * whole,
+                    mbs, built.nodes, force=lambda t, e, rates: t * whole,
                     derivatives=lambda t, e: nothing,
                 )  # fmt: skip
             mbs.Assemble()
@@ -206,22 +212,3 @@ def natural_frequencies(
     require_blade(beam)
     warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
     return Linearization.of(beam, omega, element, elements).frequencies(count)
-
-
-@dataclass(frozen=True)
-class _Raised:
-    """A steady rotation whose speed static solutions raise from zero at t = 0 to w̄ at 1.
-
-    A blade that bends in rotation has several equilibria: that from rest is followed.
-    """
-
-    w_bar: float
-
-    def angle(self, t: Any) -> Any:
-        return 0.0
-
-    def rate(self, t: Any) -> Any:
-        return self.w_bar * t
-
-    def acceleration(self, t: Any) -> Any:
-        return 0.0

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -24,24 +25,17 @@ from analytic.lazily import sparse
 from analytic.loads import Load
 from analytic.motion import Rotation
 
+from ..lazily import exudyn
+from ..runs import Frame
 from .elements.energy_body import add_force, triplets
 from .elements.formulation import Chain, Formulation
-from .lazily import Frame, exudyn
 from .solver import mass_matrix
 
 
 class Loading:
     """Consistent loads and external damping: all that acts on a chain besides its inertia.
 
-    Parameters
-    ----------
-    model : Formulation
-    beam : Beam or Blade
-    elements : int
-    mass : csr_array
-        Mass matrix of the chain, point masses included.
-    loads : sequence of Load
-        With frequencies, and in the units of the beam.
+    The mass matrix includes point masses; loads are in the units of the beam.
     """
 
     def __init__(
@@ -66,10 +60,9 @@ class Loading:
         shifts = np.tile(np.eye(model.dimensions, per_node), size // per_node)
         self._pushes = [(load, np.asarray(shifts @ acted_on[onto])) for load, onto in forces]
         self._drag, self._model, self._setting = external * of_length, model, model.setting(beam)
-        self._acts = bool(forces) or external > 0.0
 
     def __bool__(self) -> bool:
-        return self._acts
+        return bool(self._pushes) or self._drag.nnz > 0
 
     def forces(self, t: FloatArray, angle: FloatArray, setting: float | None = None) -> FloatArray:
         """Return the nodal forces of all loads in the frame of the clamp, (samples, n).
@@ -88,11 +81,7 @@ class Loading:
     def power(self, t: FloatArray, angle: FloatArray, velocities: FloatArray) -> FloatArray:
         """Return the power (samples,) that loads bring and external damping takes.
 
-        Parameters
-        ----------
-        t, angle : ndarray (samples,)
-        velocities : ndarray (samples, nodes, n)
-            Relative to the frame of the clamp, by its axes.
+        Velocities (samples, nodes, n) are relative to the frame of the clamp, by its axes.
         """
         v = velocities.reshape(t.size, -1)
         return np.asarray(np.sum((self.forces(t, angle) - v @ self._drag) * v, axis=1))
@@ -103,26 +92,23 @@ class Loading:
         turn = sparse.kron(sparse.eye_array(len(chain.nodes)), self._model.quarter_turn)
         turning = (self._drag @ turn).tocsr()
         drag_triplets, turning_triplets = triplets(self._drag), triplets(turning)
-        time, acting = np.nan, np.zeros(self._drag.shape[0])
 
-        def act(t: float) -> None:
-            nonlocal time, acting
-            time, angle = t, np.array([rotation.angle(t)])
-            acting = self.forces(np.array([t]), angle).ravel()
-            if inertial:
-                per_node = acting.reshape(1, len(chain.nodes), -1)
-                acting = self._model.turned(per_node, angle).ravel()
+        @lru_cache(maxsize=1)
+        def acting(t: float) -> FloatArray:
+            angle = np.array([rotation.angle(t)])
+            forces = self.forces(np.array([t]), angle)
+            if not inertial:
+                return forces.ravel()
+            return self._model.turned(forces.reshape(1, len(chain.nodes), -1), angle).ravel()
 
         def frame_rate(t: float) -> float:
             """Return the rate at which velocities of the clamp's frame turn in the coordinates."""
             return rotation.rate(t) if inertial else 0.0
 
         def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:
-            if t != time:
-                act(t)
-            return np.asarray(acting + frame_rate(t) * (turning @ e) - self._drag @ rates)
+            return np.asarray(acting(t) + frame_rate(t) * (turning @ e) - self._drag @ rates)
 
         def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
             return [(drag_triplets, 0.0, -1.0), (turning_triplets, frame_rate(t), 0.0)]
 
-        add_force(mbs, chain.nodes, acting.size, force=force, derivatives=derivatives)
+        add_force(mbs, chain.nodes, force=force, derivatives=derivatives)

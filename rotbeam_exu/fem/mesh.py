@@ -87,13 +87,7 @@ class Mesh:
         )
 
     def lumped(self) -> Iterator[tuple[int, PointMass]]:
-        """Yield the nodes that carry a mass, and the masses.
-
-        Raises
-        ------
-        ValueError
-            If a mass is not at a node.
-        """
+        """Yield the nodes that carry a mass, and the masses; refuse one that is not at a node."""
         for one in self.blade.point_masses:
             node = round((self.positions.size - 1) * one.position / self.blade.length)
             off = abs(self.blade.hub_radius + one.position - self.positions[node])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from analytic import AnyBlade
 from analytic.input_checks import finite_number, whole_number
@@ -12,13 +11,14 @@ from analytic.lazily import sparse
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
+from ..lazily import exudyn, items
+from ..runs import Frame
 from ..runs.check import whole_steps
 from . import drive
 from .elements import Chain, Formulation, formulation, require_joint, require_modeled
-from .lazily import Frame, exudyn, items
 from .loading import Loading
 from .solver import mass_matrix, round_off
-from .units import Restated, Units
+from .units import Units, restated
 
 _TOLERANCE = 1e-9
 """Newton's absolute tolerance of forces, in EI/L², where round-off allows it."""
@@ -76,12 +76,12 @@ class RotatingBeam:
 
     def add_torque_sensor(self, mbs: exudyn.MainSystem) -> exudyn.SensorIndex:
         """Add a sensor of the clamp's torque, stored in the sensor itself."""
-
-        def read(mbs: Any, t: float, sensors: Any, factors: Any, configuration: Any) -> list[float]:
-            return [self.torque(mbs, t)]
-
         return mbs.AddSensor(
-            items.SensorUserFunction(sensorUserFunction=read, storeInternal=True, writeToFile=False)
+            items.SensorUserFunction(
+                sensorUserFunction=lambda mbs, t, *others: [self.torque(mbs, t)],
+                storeInternal=True,
+                writeToFile=False,
+            )
         )
 
     def solver_settings(
@@ -194,11 +194,13 @@ def add_rotating_beam(
     if on_body:
         constraints, torque = drive.clamp_to_body(mbs, chain, model, clamp, azimuth)
     else:
-        rotation = Restated(rippled(clamp, loads), azimuth=azimuth)
+        rotation = rippled(clamp, loads)
+        if azimuth:
+            rotation = restated(rotation, azimuth=azimuth)
         if frame == "inertial":
             constraints = drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
         else:
-            constraints = drive.hold_root(mbs, chain, model)
+            constraints = [drive.hold_root(mbs, chain, model)]
             drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(beam))
             model.add_spin_forces(mbs, chain, beam, rotation)
         seen = rotation.angle if frame == "inertial" else lambda t: 0.0

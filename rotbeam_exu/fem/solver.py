@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from traceback import format_exception
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,9 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
+from ..lazily import exudyn, items
+from ..runs import Frame
 from .elements.formulation import Chain, Formulation
-from .lazily import Frame, exudyn, items
 
 
 @contextmanager
@@ -107,7 +109,7 @@ def solve(
     except BaseException as error:
         if interruption is not None:
             raise interruption from None
-        if "KeyboardInterrupt" in _chain_of(error):
+        if any("KeyboardInterrupt" in one for one in format_exception(error, limit=0)):
             raise KeyboardInterrupt from None
         return error
     if progress is not None:
@@ -115,39 +117,17 @@ def solve(
     return None
 
 
-def _chain_of(error: BaseException | None) -> str:
-    """Names and texts of an error and of what caused it."""
-    text = ""
-    while error is not None:
-        text += f"{type(error).__name__} {error} "
-        error = error.__cause__ or error.__context__
-    return text
-
-
 @dataclass(frozen=True, kw_only=True)
 class Trajectory:
-    """Samples of a run, in the units in which it was solved.
-
-    Attributes
-    ----------
-    time : ndarray (samples,)
-    coordinates, velocities : ndarray (samples, nodes, n)
-        Reference values included.
-    reference : ndarray (nodes, n)
-    elastic_energy : ndarray (samples,)
-    multipliers : ndarray (samples, constraints)
-        Lagrange multipliers of the clamp: of the root's place, then of its direction.
-    accelerations : ndarray (samples, nodes, n)
-        With no samples unless asked for.
-    """
+    """Samples of a run, in the units in which it was solved."""
 
     time: FloatArray
-    coordinates: FloatArray
+    coordinates: FloatArray  # (samples, nodes, n), reference values included
     velocities: FloatArray
     reference: FloatArray
     elastic_energy: FloatArray
-    multipliers: FloatArray
-    accelerations: FloatArray
+    multipliers: FloatArray  # (samples, constraints), of the root's place, then its direction
+    accelerations: FloatArray  # with no samples unless asked for
 
 
 class Sensors:
@@ -160,40 +140,37 @@ class Sensors:
         self._mbs, self._chain, self._reference = mbs, chain, chain.reference(mbs)
         kind = exudyn.OutputVariableType
         kept: dict[str, Any] = {"storeInternal": True, "writeToFile": False}
-        self._coordinates, self._velocities, self._accelerations = (
-            [
-                mbs.AddSensor(items.SensorNode(nodeNumber=n, outputVariableType=variable, **kept))
-                for n in chain.nodes
-                if accelerations or variable != kind.Coordinates_tt
-            ]
-            for variable in (kind.Coordinates, kind.Coordinates_t, kind.Coordinates_tt)
-        )
-        energy = kind.PotentialEnergy
+
+        def of_nodes(variable: Any) -> list[exudyn.SensorIndex]:
+            nodal = {"outputVariableType": variable, **kept}
+            return [mbs.AddSensor(items.SensorNode(nodeNumber=n, **nodal)) for n in chain.nodes]
+
+        self._coordinates, self._velocities = map(of_nodes, (kind.Coordinates, kind.Coordinates_t))
+        self._accelerations = of_nodes(kind.Coordinates_tt) if accelerations else []
+        kept["outputVariableType"] = kind.PotentialEnergy
         self._elastic = [
-            mbs.AddSensor(items.SensorBody(bodyNumber=body, outputVariableType=energy, **kept))
-            for body in chain.bodies
+            mbs.AddSensor(items.SensorBody(bodyNumber=one, **kept)) for one in chain.bodies
         ]
-        self._clamp = [
-            mbs.AddSensor(items.SensorObject(objectNumber=o, outputVariableType=kind.Force, **kept))
-            for o in clamp
-        ]
+        kept["outputVariableType"] = kind.Force
+        self._clamp = [mbs.AddSensor(items.SensorObject(objectNumber=o, **kept)) for o in clamp]
 
     def read(self) -> Trajectory:
         """Return the samples kept."""
         table = self._mbs.GetSensorStoredData
-        coordinates = np.stack([table(s)[:, 1:] for s in self._coordinates], axis=1)
-        coordinates += self._reference
+
+        def values(sensors: Sequence[exudyn.SensorIndex]) -> FloatArray:
+            return np.stack([table(one)[:, 1:] for one in sensors], axis=1)
+
+        coordinates = values(self._coordinates) + self._reference
         elastic = np.sum([table(s)[:, 1] for s in self._elastic], axis=0)
         if self._chain.elastic_energy is not None:
             elastic = elastic + self._chain.elastic_energy(coordinates)
         return Trajectory(
             time=np.array(table(self._coordinates[0])[:, 0]),
             coordinates=coordinates,
-            velocities=np.stack([table(s)[:, 1:] for s in self._velocities], axis=1),
+            velocities=values(self._velocities),
             reference=self._reference,
             elastic_energy=elastic,
             multipliers=np.hstack([coordinates[:, 0, :0], *(table(s)[:, 1:] for s in self._clamp)]),
-            accelerations=np.stack(
-                [table(s)[:, 1:] for s in self._accelerations] or [coordinates[:0, 0]], axis=1
-            ),
+            accelerations=values(self._accelerations) if self._accelerations else coordinates[:0],
         )

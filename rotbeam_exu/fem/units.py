@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from types import SimpleNamespace
+from typing import cast
 
 from analytic import AnyBlade
 from analytic.exact.beam.state import BeamState
@@ -54,7 +55,7 @@ class Units:
 
     def rotation(self, rotation: Rotation) -> Rotation:
         """Return the rotation over time in these units."""
-        return Restated(rotation, unit=self.time)
+        return restated(rotation, unit=self.time)
 
     def state(self, state: BeamState) -> BeamState:
         """Return the state in these units; slopes and angles have none."""
@@ -67,22 +68,11 @@ class Units:
         )
 
 
-@dataclass(frozen=True)
-class Restated:
-    """A rotation whose time is counted in units of `unit` [s], from another angle on [rad]."""
-
-    rotation: Rotation
-    unit: float = 1.0
-    azimuth: float = 0.0
-
-    def angle(self, t: Any) -> Any:
-        """Return the angle [rad] at `t`."""
-        return self.azimuth + self.rotation.angle(self.unit * t)
-
-    def rate(self, t: Any) -> Any:
-        """Return its rate."""
-        return self.unit * self.rotation.rate(self.unit * t)
-
-    def acceleration(self, t: Any) -> Any:
-        """Return its acceleration."""
-        return self.unit**2 * self.rotation.acceleration(self.unit * t)
+def restated(rotation: Rotation, unit: float = 1.0, azimuth: float = 0.0) -> Rotation:
+    """Return a rotation whose time is counted in units of `unit` [s], from another angle on."""
+    found = SimpleNamespace(
+        angle=lambda t: azimuth + rotation.angle(unit * t),
+        rate=lambda t: unit * rotation.rate(unit * t),
+        acceleration=lambda t: unit**2 * rotation.acceleration(unit * t),
+    )
+    return cast(Rotation, found)

@@ -1,7 +1,9 @@
-"""A beam or a blade from a TOML file, and a run's motion and numerics where it holds them."""
+"""A beam or a blade from a TOML file, with stations from CSV, and a run's motion and numerics."""
 
 from __future__ import annotations
 
+import csv
+import math
 import os
 import re
 import tomllib
@@ -10,35 +12,25 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section
+from analytic.arrays import FloatArray
 from analytic.description import from_description
-from analytic.input_checks import positive, rotation_speed, whole_number
+from analytic.input_checks import finite_number, positive, rotation_speed, whole_number
 from analytic.loads import Load
 from analytic.parts import Line
 from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 
-from . import beam_tables as tables
-from .beam_tables import Table, require_keys
-from .stations_file import blade_of_csv
+from .beam_tables import BEAM, require_keys
 
 _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
 
 
 @dataclass(frozen=True, kw_only=True)
 class RunFile:
-    """Content of a file about a run.
-
-    Attributes
-    ----------
-    beam : Beam or Blade
-        The paper's beam, where the file has none.
-    motion : dict
-        `omega` [rad/s] and `ramp_time` [s], if the file holds them.
-    loads : sequence of Load
-    numerics : dict
-        `element`, `elements`, `step` [s], `duration` [s] and `frame`, if it holds them.
-    """
+    """Content of a file about a run, as far as it has any; the paper's beam where it has none."""
 
     beam: AnyBlade
     motion: Mapping[str, float] = field(default_factory=dict)
@@ -83,65 +75,48 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     >>> print(f"{beam.omega_0:.4f} rad/s")
     2.9100 rad/s
     """
-    source = Path(path)
-    document = _read_toml(source)
-    for others in ("motion", "numerics", "loads"):  # of a run, which `load_run_file` reads
-        document.pop(others, None)
-    return _beam_from(document, source)
+    return load_run_file(path, needs_beam=True).beam
 
 
-def load_run_file(path: str | os.PathLike[str]) -> RunFile:
+def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> RunFile:
     """Read [beam] or [blade], as `load_beam` does, and the tables [motion], [numerics], [[loads]].
 
     [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
     duration [s] and frame; each [[loads]] the kind of a load and its fields. A file with one of
-    these may do without a beam.
-
-    Raises
-    ------
-    ValueError
-        If `load_beam` refuses the file, or a key is unknown or has a value that is refused; the
-        sentence names the file and the key.
-    FileNotFoundError
-        If there is no such file.
+    these may do without a beam, unless it `needs_beam`. Errors are those of `load_beam`.
     """
     source = Path(path)
     document = _read_toml(source)
-    run: dict[str, Any] = {
-        name: _checked(document.pop(name), f"[{name}]", source, keys)
-        for name, keys in (("motion", tables.MOTION), ("numerics", tables.NUMERICS))
-        if name in document
-    }
-    if "loads" in document:
-        run["loads"] = _loads(document.pop("loads"), source)
-    beam = _beam_from(document, source) if document or not run else Beam.reference()
-    return RunFile(beam=beam, **run)
-
-
-def _loads(told: Any, source: Path) -> list[Load]:
-    if not (isinstance(told, list) and all(isinstance(one, dict) for one in told)):
-        raise ValueError(f'{source}: write each [[loads]] as a table, with kind = "Gravity"')
     try:
-        return [from_description(one, Load) for one in told]
+        if "beam" in document and "blade" in document:
+            raise ValueError("it has both [beam] and [blade]: keep one")
+        require_keys(document)
+        if "blade" in document:
+            beam = _blade(document["blade"], source.parent)
+        elif "beam" in document:
+            beam = _beam(document["beam"])
+        elif document and not needs_beam:
+            beam = Beam.reference()
+        else:
+            raise ValueError(f"it has no table [beam] with {', '.join(BEAM.required)}")
+        run = {
+            name: {key: _number(key, value) for key, value in document[name].items()}
+            for name in ("motion", "numerics")
+            if name in document
+        }
+        loads = [from_description(one, Load) for one in document.get("loads", [])]
     except (OverflowError, TypeError, ValueError) as error:
-        raise ValueError(f"{source}: [[loads]]: {error}") from error
+        raise ValueError(f"{source}: {error}") from error
+    return RunFile(beam=beam, loads=loads, **run)
 
 
-def _checked(table: Any, title: str, source: Path, keys: Table) -> dict[str, Any]:
-    require_keys(table, title, source, keys)
-    try:
-        return {name: _number(name, value, keys.optional[name]) for name, value in table.items()}
-    except (OverflowError, TypeError, ValueError) as error:
-        raise ValueError(f"{source}: {title}: {error}") from error
-
-
-def _number(name: str, value: object, kind: type) -> Any:
+def _number(name: str, value: object) -> Any:
     """Return a number or a name of [motion] and [numerics]; but for the speed, times [s]."""
-    if kind is str:
+    if name in ("element", "frame"):
         if not isinstance(value, str):
             raise TypeError(f"{name} must be a name in quotes, got {value!r}")
         return value
-    if kind is int:
+    if name == "elements":
         return whole_number(name, value)
     return rotation_speed(value) if name == "omega" else positive(name, value, "s")
 
@@ -159,101 +134,148 @@ def _read_toml(source: Path) -> dict[str, Any]:
         raise ValueError(f"{source} is not valid TOML: {error}{hint}") from error
 
 
-def _beam_from(document: dict[str, Any], source: Path) -> AnyBlade:
-    """Return the beam of a document, as `load_beam` does; `source` is named in its errors."""
-    for name in document:
-        if name not in ("beam", "blade"):
-            raise ValueError(
-                f"{source}: unknown table or key {name!r}; the beam is in [beam], a blade in "
-                "[blade], what a run needs in [motion], [numerics] and [[loads]]"
-            )
-    if len(document) == 2:
-        raise ValueError(f"{source} has both [beam] and [blade]: keep one")
-    kind = "blade" if "blade" in document else "beam"
-    table = document.get(kind)
-    if not isinstance(table, dict):
-        raise ValueError(f"{source} has no table [beam] with {', '.join(tables.BEAM.required)}")
-    try:
-        return _blade(table, source) if kind == "blade" else _beam(table, source)
-    except (OverflowError, TypeError, ValueError) as error:
-        text = str(error)
-        raise ValueError(text if text.startswith(str(source)) else f"{source}: {text}") from error
-
-
-def _beam(table: dict[str, Any], source: Path) -> AnyBlade:
-    by_stiffness = bool(set(table) & {*tables.SECTION.required})
-    require_keys(table, "[beam]", source, tables.BEAM_BY_STIFFNESS if by_stiffness else tables.BEAM)
-    if by_stiffness:
+def _beam(table: dict[str, Any]) -> AnyBlade:
+    if "axial_stiffness" in table:
         return Beam.from_stiffness(**table)
-    material = {name: table[name] for name in tables.BEAM.required}
+    material = {name: table[name] for name in BEAM.required}
     return _shaped(Beam(**material), table.get("shape"))
 
 
-def _blade(table: dict[str, Any], source: Path) -> AnyBlade:
-    keys = tables.BLADE_AT_STATIONS if "stations" in table else tables.BLADE
-    require_keys(table, "[blade]", source, keys)
-    parts, line, shape = dict(table), table.get("line", {}), None
-    masses = parts.pop("point_mass", [])
-    if not isinstance(masses, list):
-        raise ValueError(f"{source}: write each [[blade.point_mass]] as a table")
-    if "stations" in table:
-        at = _at_stations(parts.pop("stations"), source)
+def _blade(table: dict[str, Any], folder: Path) -> AnyBlade:
+    parts: dict[str, Any] = dict(table)
+    masses, damping, line = (
+        parts.pop(name, default)
+        for name, default in (("point_mass", []), ("damping", {}), ("line", {}))
+    )
+    shape = None
+    if "stations" in parts:
+        at = _at_stations(parts.pop("stations"), folder)
         parts |= {"length": at.length, "section": at.section}
         line = {"twist": at.line.twist, **line}
     else:
-        parts["section"], shape = _section(table["section"], source)
-    damping = parts.pop("damping", {})
-    ratio = isinstance(damping, dict) and "ratio" in damping
-    title, keys = "[blade.damping]", tables.DAMPING_BY_RATIO if ratio else tables.table_of(Damping)
-    require_keys(damping, title, source, keys)
-    parts["line"] = _part(Line, line, "[blade.line]", source)
-    parts["point_masses"] = tuple(
-        _part(PointMass, one, "[[blade.point_mass]]", source) for one in masses
-    )
-    blade = _shaped(Blade(**parts), shape).blade
-    if ratio:
+        section = dict(parts["section"])
+        shape = section.pop("shape", None)
+        if "out_of_plane" in section:
+            if shape is not None:
+                raise ValueError(
+                    "a shape and out_of_plane of [blade.section] say the same: keep one"
+                )
+            section["out_of_plane"] = OutOfPlane(**section["out_of_plane"])
+        parts["section"] = Section(**section)
+    point_masses = tuple(PointMass(**one) for one in masses)
+    blade = _shaped(Blade(**parts, line=Line(**line), point_masses=point_masses), shape).blade
+    if "ratio" in damping:
         return blade.with_damping(Damping.from_ratio(blade, 1, damping["ratio"]))
     return blade.with_damping(Damping(**damping))
 
 
-def _at_stations(table: dict[str, Any], source: Path) -> Blade:
-    title = "[blade.stations]"
+def _at_stations(table: dict[str, Any], folder: Path) -> Blade:
     if "file" in table:
-        require_keys(table, title, source, tables.STATIONS_OF_FILE)
-        return blade_of_csv(source.parent / str(table["file"]))
+        return blade_of_csv(folder / str(table["file"]))
     if "shapes" in table:
-        require_keys(table, title, source, tables.STATIONS_OF_SHAPES)
-        shapes = list(map(_shape, table["shapes"]))
+        shapes = [from_description(one, SectionShape) for one in table["shapes"]]
         return Blade.from_shapes(**{**table, "shapes": shapes})
-    require_keys(table, title, source, tables.STATIONS)
     return Blade.from_stations(**table)
 
 
-def _section(table: dict[str, Any], source: Path) -> tuple[Section, Any]:
-    """Return a section, and the table of its shape."""
-    require_keys(table, "[blade.section]", source, tables.SECTION)
-    section = dict(table)
-    shape = section.pop("shape", None)
-    if "out_of_plane" in section:
-        title = "[blade.section.out_of_plane]"
-        section["out_of_plane"] = _part(OutOfPlane, section["out_of_plane"], title, source)
-        if shape is not None:
-            raise ValueError(f"{source} has {title} and a shape, which say the same: keep one")
-    return Section(**section), shape
-
-
-def _shaped(beam: AnyBlade, shape: object) -> AnyBlade:
+def _shaped(beam: AnyBlade, shape: Any) -> AnyBlade:
     """Return the beam with the shape of a table, or itself without one."""
-    return beam if shape is None else beam.with_shape(_shape(shape))
+    return beam if shape is None else beam.with_shape(from_description(shape, SectionShape))
 
 
-def _shape(shape: object) -> SectionShape:
-    if not isinstance(shape, dict):
-        raise ValueError('write a shape as a table, as { kind = "Rectangle", width = 0.002 }')
-    return from_description(shape, SectionShape)
+_STIFFNESS = ("EA", "GA2", "GA3", "GJ", "EI2", "EI3")
+_MASS = ("m", "j1", "j2", "j3")
+_CENTERS = ("tension", "shear", "center", "axis")
+_UNITS = {
+    "x": "m", "twist": "rad", "EA": "N", "EI": "N m^2", "m": "kg/m",
+    "GA2": "N", "GA3": "N", "GJ": "N m^2", "EI2": "N m^2", "EI3": "N m^2",
+    "j1": "kg m", "j2": "kg m", "j3": "kg m",
+    **{f"{name}{axis}": "m" for name in _CENTERS for axis in (2, 3)},
+}  # fmt: skip
+_FACTORS = {
+    "rad": {"rad": 1.0, "deg": math.pi / 180.0},
+    "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254, "ft": 0.3048},
+    "N": {"N": 1.0, "kN": 1e3, "MN": 1e6, "GN": 1e9},
+    "N m^2": {"N m^2": 1.0, "kN m^2": 1e3, "MN m^2": 1e6, "N mm^2": 1e-6},
+    "kg/m": {"kg/m": 1.0, "g/mm": 1.0, "t/mm": 1e6, "g/m": 1e-3},
+    "kg m": {"kg m": 1.0, "kg m^2/m": 1.0, "t mm": 1.0, "g m": 1e-3},
+}
+"""Units that a header may have, and what one of them is in SI."""
 
 
-def _part(cls: type[Any], table: Any, title: str, source: Path) -> Any:
-    """Return the value whose fields are the keys of a table."""
-    require_keys(table, title, source, tables.table_of(cls))
-    return cls(**table)
+def blade_of_csv(path: Path) -> Blade:
+    """Return the blade of a CSV file of stations.
+
+    The header has each column's name and unit, as `EA [MN]`. In the plane: x, EA, EI and m. In
+    space: x, EA, GJ, EI2 (flap), EI3 (lag), m, and, if known, GA2, GA3, j1, j2 and j3, twist, and
+    tension2, tension3, ... of `Blade.from_stations`.
+
+    Raises
+    ------
+    ValueError
+        If a column is missing or unknown, or its unit, or a cell is no number.
+    """
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no file {path}")
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        header, *rows = [row for row in csv.reader(file) if row] or [[]]
+    columns = {}
+    for place, title in enumerate(header):
+        name, factor = _name_and_factor(title, path)
+        columns[name] = factor * np.array([_cell(row, place, title, path) for row in rows])
+    planar = "EI" in columns
+    wanted = ("x", "EA", "EI", "m") if planar else ("x", "EA", "GJ", "EI2", "EI3", "m")
+    if missing := [name for name in wanted if name not in columns]:
+        raise ValueError(f"{path} lacks the column {', '.join(missing)}")
+    if planar:
+        return _planar(columns, path)
+    EA, zero = columns["EA"], np.zeros_like(columns["x"])
+    # A theory without shear does not use GA2 and GA3; a homogeneous section has j = m EI/EA.
+    known = {"GA2": EA, "GA3": EA, "twist": zero}
+    known |= {f"j{axis}": columns["m"] * columns[f"EI{axis}"] / EA for axis in (2, 3)} | columns
+    known = {"j1": known["j2"] + known["j3"]} | known
+    pairs = {
+        name: np.stack([known.get(f"{name}{axis}", zero) for axis in (2, 3)], axis=-1)
+        for name in _CENTERS
+    }
+    stiffness, mass = (
+        np.stack([known[name] for name in names], axis=-1) for names in (_STIFFNESS, _MASS)
+    )
+    return Blade.from_stations(known["x"], stiffness, mass, twist=known["twist"], **pairs)
+
+
+def _planar(columns: dict[str, FloatArray], path: Path) -> Blade:
+    if more := sorted(columns.keys() - {"x", "EA", "EI", "m"}):
+        raise ValueError(
+            f"{path} has EI, of the plane, beside {', '.join(more)} in space: give EI2 and EI3"
+        )
+    x = columns["x"].tolist()
+    named = {"axial_stiffness": "EA", "bending_stiffness": "EI", "mass_per_length": "m"}
+    profiles: dict[str, Any] = {
+        name: tuple(zip(x, columns[column].tolist(), strict=True)) for name, column in named.items()
+    }
+    return Blade(length=x[-1], section=Section(**profiles))
+
+
+def _name_and_factor(title: str, path: Path) -> tuple[str, float]:
+    """Return the name of a column and its unit in SI."""
+    told = re.fullmatch(r"\s*(\w+)\s*\[(.*)\]\s*", title)
+    name = told[1] if told else title.strip()
+    if name not in _UNITS:
+        raise ValueError(f"{path}: unknown column {name!r}; known are {', '.join(_UNITS)}")
+    factors = _FACTORS[_UNITS[name]]
+    unit = " ".join(told[2].replace("²", "^2").replace("*", " ").split()) if told else ""
+    if unit not in factors:
+        raise ValueError(
+            f"{path}: give the unit of column {title!r}, as {name} [{_UNITS[name]}]; known are "
+            f"{', '.join(factors)}"
+        )
+    return name, factors[unit]
+
+
+def _cell(row: list[str], place: int, title: str, path: Path) -> float:
+    try:
+        return finite_number(title, float(row[place]))
+    except (IndexError, ValueError) as error:
+        cell = row[place] if place < len(row) else ""
+        raise ValueError(f"{path}: column {title!r} has {cell!r}, which is no number") from error

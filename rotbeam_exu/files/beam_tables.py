@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import difflib
 import inspect
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import MISSING, fields
-from pathlib import Path
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import NoneType
 from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
@@ -26,72 +24,83 @@ class Table(NamedTuple):
     optional: Mapping[str, Any]
 
 
-def table_of(cls: type[Any]) -> Table:
-    """Return the keys of a dataclass's table, which are its fields."""
-    hints, own = get_type_hints(cls), [one for one in fields(cls) if one.init]
-    asked = {one.name: hints[one.name] for one in own if one.default is MISSING}
-    return Table(asked, {one.name: hints[one.name] for one in own if one.name not in asked})
-
-
-def _table_of_call(function: Callable[..., Any]) -> Table:
-    """Return the keys of a table that holds the arguments of a call."""
-    hints, known = get_type_hints(function), inspect.signature(function).parameters.values()
+def table_of(call: Callable[..., Any]) -> Table:
+    """Return the keys of a table that holds the fields of a class, or the arguments of a call."""
+    hints, known = get_type_hints(call), inspect.signature(call).parameters.values()
     asked = {one.name: hints[one.name] for one in known if one.default is one.empty}
     return Table(asked, {one.name: hints[one.name] for one in known if one.name not in asked})
 
 
-_OF_SECTION = {**table_of(Section).required, **table_of(Section).optional}
-_STIFFNESS = ("axial_stiffness", "bending_stiffness", "mass_per_length")
-
 BEAM = Table(table_of(Beam).required, {"shape": SectionShape})
-BEAM_BY_STIFFNESS = Table(dict.fromkeys(("length", *_STIFFNESS), float), {})
-SECTION = Table(
-    {name: _OF_SECTION[name] for name in _STIFFNESS},
-    {name: _OF_SECTION[name] for name in ("rotary_inertia", "out_of_plane")}
-    | {"shape": SectionShape},
-)
-STATIONS = _table_of_call(Blade.from_stations)
-STATIONS_OF_SHAPES = _table_of_call(Blade.from_shapes)
-STATIONS_OF_FILE = Table({"file": str}, {})
-DAMPING_BY_RATIO = Table({"ratio": float}, {})
+_SECTION = table_of(Section)
+_SHAPED = Table(_SECTION.required, {**_SECTION.optional, "shape": SectionShape})
+_STATIONS = table_of(Blade.from_stations), table_of(Blade.from_shapes), Table({"file": str}, {})
 _BLADE = {
     "hub_radius": float,
     "setting_angle": float,
     "point_mass": list[PointMass],
-    "damping": (table_of(Damping), DAMPING_BY_RATIO),
+    "damping": (table_of(Damping), Table({"ratio": float}, {})),
     "line": table_of(Line),
 }
-BLADE = Table({"length": float, "section": SECTION}, _BLADE)
-BLADE_AT_STATIONS = Table({"stations": (STATIONS, STATIONS_OF_SHAPES, STATIONS_OF_FILE)}, _BLADE)
-MOTION = Table({}, {"omega": float, "ramp_time": float})
-NUMERICS = Table(
-    {}, {"element": str, "elements": int, "step": float, "duration": float, "frame": str}
-)
 _DOCUMENT = Table(
     {},
     {
-        "beam": (BEAM, BEAM_BY_STIFFNESS),
-        "blade": (BLADE, BLADE_AT_STATIONS),
-        "motion": MOTION,
-        "numerics": NUMERICS,
+        "beam": (BEAM, Table(dict.fromkeys(("length", *_SECTION.required), float), {})),
+        "blade": (
+            Table({"length": float, "section": _SHAPED}, _BLADE),
+            Table({"stations": _STATIONS}, _BLADE),
+        ),
+        "motion": Table({}, {"omega": float, "ramp_time": float}),
+        "numerics": Table(
+            {}, {"element": str, "elements": int, "step": float, "duration": float, "frame": str}
+        ),
         "loads": list[Load],
     },
 )
 
 
-def require_keys(table: Any, title: str, source: Path, keys: Table) -> None:
-    """Refuse values that are no table, missing keys, and unknown ones, by what to write."""
-    if not isinstance(table, dict):
-        raise ValueError(f"{source}: write {title} as a table")
-    known = (*keys.required, *keys.optional)
-    for key in table:
+def require_keys(value: Any, told: Any = _DOCUMENT, title: str = "the file") -> None:
+    """Refuse what is no table, missing keys, and unknown ones, in a table and in all within it."""
+    if not (tables := _tables(told)):
+        return
+    if get_origin(told) in (list, Sequence):
+        if not isinstance(value, list):
+            raise ValueError(f"write each [{title}] as a table")
+        for one in value:
+            require_keys(one, tables, f"[{title}]")
+        return
+    if not isinstance(value, dict):
+        raise ValueError(f"write {title} as a table")
+    if _TELLING_ITS_KIND in tables:
+        return
+    # Of alternatives the one whose keys are there.
+    required, optional = min(
+        tables, key=lambda one: (len(one.required.keys() - value), -len(one.required))
+    )
+    known = {**required, **optional}
+    for key, part in value.items():
         if key not in known:
             close = difflib.get_close_matches(key, known, n=1)
             hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(known)}"
-            raise ValueError(f"{source}: unknown key {key!r} in {title}; {hint}")
-    missing = [key for key in keys.required if key not in table]
-    if missing:
-        raise ValueError(f"{source}: {title} lacks {', '.join(missing)}")
+            raise ValueError(f"unknown key {key!r} in {title}; {hint}")
+        within = "" if told is _DOCUMENT else f"{title.strip('[]')}."
+        require_keys(part, known[key], f"[{within}{key}]")
+    if missing := [key for key in required if key not in value]:
+        raise ValueError(f"{title} lacks {', '.join(missing)}")
+
+
+def _tables(told: Any) -> tuple[Table, ...]:
+    """Return the tables that a value of a type may be or hold, none of numbers and texts."""
+    if isinstance(told, Table):
+        return (told,)
+    if isinstance(told, type) and issubclass(told, Described):
+        return (table_of(told) if told.__name__ in kinds_of(told) else _TELLING_ITS_KIND,)
+    parts = told if isinstance(told, tuple) else get_args(told)
+    return tuple(table for one in parts for table in _tables(one))
+
+
+_TELLING_ITS_KIND = Table({"kind": str}, {})
+"""A table of a load or a shape, which `from_description` checks."""
 
 
 def schema() -> dict[str, Any]:
@@ -120,24 +129,19 @@ def _schema_of(told: Any) -> dict[str, Any]:
             "required": list(told.required),
             "additionalProperties": False,
         }
-    if isinstance(told, tuple):
-        several = [_schema_of(one) for one in told]
-        return several[0] if len(several) == 1 else {"anyOf": several}
-    if told in _TYPES:
-        return {"type": _TYPES[told]}
     if get_origin(told) is Literal:
         return {"const": get_args(told)[0]}
+    if not isinstance(told, tuple) and told in _TYPES:
+        return {"type": _TYPES[told]}
+    parts: Iterable[Any] = told if isinstance(told, tuple) else dict.fromkeys(get_args(told))
     if isinstance(told, type) and issubclass(told, Described):
         kinds = kinds_of(told)
-        own = told.__name__ in kinds
-        return _schema_of(table_of(told) if own else tuple(map(_with_kind, kinds.values())))
-    parts = tuple(one for one in get_args(told) if one not in (NoneType, Ellipsis))
-    choice = _schema_of(tuple(dict.fromkeys(parts)))
-    return (
-        {"type": "array", "items": choice}
-        if get_origin(told) in (list, tuple, Sequence)
-        else choice
-    )
+        parts = [table_of(told)] if told.__name__ in kinds else map(_with_kind, kinds.values())
+    several = [_schema_of(one) for one in parts if one not in (NoneType, Ellipsis)]
+    choice = several[0] if len(several) == 1 else {"anyOf": several}
+    if get_origin(told) in (list, tuple, Sequence):
+        return {"type": "array", "items": choice}
+    return choice
 
 
 def _with_kind(cls: type[Any]) -> Table:

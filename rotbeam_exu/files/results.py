@@ -172,23 +172,11 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
 def differing_inputs(
     run: xr.Dataset | Mapping[str, object], path: str | os.PathLike[str]
 ) -> dict[str, tuple[object, object]]:
-    """Tell whether the file at `path` holds the same inputs: what to ask before replacing it.
+    """Return, by its name, each input in which a result, or its inputs alone, and a file differ.
 
+    Its values in both, None if missing; `file`, if it cannot be read; nothing if there is none.
     Inputs are the attributes but `OUTCOMES`, and the coordinates of every dimension but time: the
     grid of a sweep.
-
-    Parameters
-    ----------
-    run : Dataset or mapping
-        A result, or only its inputs by name, where it is not computed yet.
-    path : path
-        A netCDF file that `save` wrote, or none.
-
-    Returns
-    -------
-    dict
-        By name of each input that differs, its values in `run` and in the file, None if missing;
-        `file`, if it cannot be read. Empty if there is no file, or if it may be replaced.
     """
     if not Path(path).exists():
         return {}

@@ -63,14 +63,11 @@ def checked_steps(
     step: float,
     driven: Sequence[float] = (),
 ) -> tuple[int, int]:
-    """Return how many steps a run has, and of how many one is kept.
+    """Return how many steps a run has, and of how many one is kept: a divisor.
 
-    Loads go by the frequencies `driven` [rad/s].
-
-    Raises
-    ------
-    ValueError
-        If the run ends before its ramp, is no whole number of steps, or a check below fails.
+    Refuse a run that ends before its ramp or is no whole number of steps, a speed `omega` [rad/s]
+    without steady state, and too few steps in a ramp or in a period of the first mode or of a load,
+    which have the frequencies `driven` [rad/s].
     """
     if duration <= ramp_time:
         raise ValueError(
@@ -84,7 +81,18 @@ def checked_steps(
             f"ramp_time {ramp_time:g} s holds {ramp_time / step:.3g} steps of {step:g} s, too few "
             f"to follow it: take a step of {ramp_time / STEPS_PER_RAMP:.3g} s or less"
         )
-    return steps, sampling(beam, omega, steps, step, driven)
+    require_steady_state(beam, omega)
+    fastest, of = float(linear_modes(beam, omega, 1).frequencies[0]), "the natural frequency"
+    if driven and max(driven) > fastest:
+        fastest, of = max(driven), "a load"
+    period = 2.0 * math.pi / fastest
+    if period < STEPS_PER_PERIOD * step:
+        raise ValueError(
+            f"a step of {step:g} s leaves {period / step:.3g} steps in a period of {of}, "
+            f"{period:.4g} s: take {period / STEPS_PER_PERIOD:.3g} s or less"
+        )
+    most = max(1, int(period / (SAMPLES_PER_PERIOD * step)))
+    return steps, max(n for n in range(1, most + 1) if steps % n == 0)
 
 
 def whole_steps(duration: float, step: float) -> int:
@@ -97,31 +105,6 @@ def whole_steps(duration: float, step: float) -> int:
             f"{duration / steps:.12g} s or a duration of {steps * step:.12g} s"
         )
     return steps
-
-
-def sampling(
-    beam: AnyBlade, omega: float, steps: int, step: float, driven: Sequence[float] = ()
-) -> int:
-    """Return how many steps lie between two samples: a divisor of `steps`.
-
-    Raises
-    ------
-    ValueError
-        If no steady state exists at the speed `omega` [rad/s], or a period of its first mode, or
-        of a load, has fewer steps than STEPS_PER_PERIOD.
-    """
-    require_steady_state(beam, omega)
-    fastest, of = float(linear_modes(beam, omega, 1).frequencies[0]), "the natural frequency"
-    if driven and max(driven) > fastest:
-        fastest, of = max(driven), "a load"
-    period = 2.0 * math.pi / fastest
-    if period < STEPS_PER_PERIOD * step:
-        raise ValueError(
-            f"a step of {step:g} s leaves {period / step:.3g} steps in a period of {of}, "
-            f"{period:.4g} s: take {period / STEPS_PER_PERIOD:.3g} s or less"
-        )
-    most = max(1, int(period / (SAMPLES_PER_PERIOD * step)))
-    return max(n for n in range(1, most + 1) if steps % n == 0)
 
 
 def require_stretch(beam: AnyBlade) -> None:
@@ -219,17 +202,10 @@ def balanced_energy(run: xr.Dataset) -> tuple[FloatArray, str]:
 def check_run(run: xr.Dataset) -> str:
     """Return "passed", or raise with the first bad time, the number and the remedy.
 
-    Parameters
-    ----------
-    run : Dataset
-        As made by `simulate`.
-
-    Raises
-    ------
-    SimulationError
-        If the run did not reach its end, holds a number that is not finite, leaves the reach of the
-        beam, strains it beyond the linear law, or violates the clamp. If it does not conserve the
-        Jacobi energy E - ω L_z in steady rotation, but for the energy supplied.
+    A SimulationError, if a run of `simulate` did not reach its end, holds a number that is not
+    finite, leaves the reach of the beam, strains it beyond the linear law, or violates the clamp.
+    If it does not conserve the Jacobi energy E - ω L_z in steady rotation, but for the energy
+    supplied.
     """
     time = np.asarray(run["time"], dtype=np.float64)
     attrs = run.attrs

@@ -122,7 +122,6 @@ def oscillation_of(
 ) -> SteadyOscillation:
     """Return `steady_oscillation` of q/L over time, of a beam whose ω_n [rad/s] may be known."""
     time, x = _steady_part(time, x, ramp_time)
-    window = float(time[-1])
     if omega_n is not None:
         # The nonlinear frequency may be lower, by a few percent.
         _check_samples(time, 0.9 * omega_n, "of the beam's slowest oscillation")
@@ -135,7 +134,6 @@ def oscillation_of(
     fit = fit_signal(time / window, x / height, guess * window)
     frequency, amplitude = fit.frequency(), fit.half_peak_to_peak()
     _check_frequency(frequency.value / window, omega_n)
-    cycles = _whole_cycles(window, frequency.value / window, ramp_time)
     harmonics = height * np.hypot(fit.cosines, fit.sines)
     return SteadyOscillation(
         amplitude=height * amplitude.value,
@@ -145,7 +143,7 @@ def oscillation_of(
         frequency_error=frequency.error / window,
         offset=height * float(fit.coefficients[0]),
         residual=height * float(np.sqrt(np.mean((fit.x - fit.periodic()) ** 2))),
-        cycles=cycles,
+        cycles=_whole_cycles(window, frequency.value / window, ramp_time),
         harmonics=harmonics,
     )
 

@@ -23,6 +23,8 @@ _TONES = 8
 _LOBE = 2
 """Half the width of the main lobe of Hann's window [turns over the window]."""
 
+_ORDERS = np.arange(1.0, HARMONICS + 1.0)
+_COSINES = slice(1, HARMONICS + 1)
 _ROUND_OFF = 16.0 * float(np.finfo(np.float64).eps)
 
 
@@ -34,48 +36,35 @@ class Known:
     error: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Fit:
-    """Least-squares fit of a series and tones, at its minimum.
-
-    Attributes
-    ----------
-    time, x, weights : ndarray of shape (samples,)
-        The signal, and the weight of each sample.
-    rates : ndarray of shape (1 + J,)
-        ω and the ν_j [rad per unit of time].
-    coefficients : ndarray of shape (1 + 2 (HARMONICS + J),)
-        c₀, the cosines of harmonics and tones, then their sines.
-    columns : ndarray of shape (samples, coefficients)
-        The model's functions, whose sum with the coefficients it is.
-    """
+    """Least-squares fit of a series and tones to weighted samples, at its minimum."""
 
     time: FloatArray
     x: FloatArray
     weights: FloatArray
-    rates: FloatArray
-    coefficients: FloatArray
-    columns: FloatArray
-
-    @property
-    def fundamental(self) -> float:
-        """ω [rad per unit of time]."""
-        return float(self.rates[0])
+    rates: FloatArray  # ω and the ν_j [rad per unit of time]
+    coefficients: FloatArray  # c₀, the cosines of harmonics and tones, then their sines
+    columns: FloatArray  # the model's functions (samples, coefficients)
 
     @property
     def cosines(self) -> FloatArray:
         """Cosine coefficients of the harmonics, shape (HARMONICS,)."""
-        return self.coefficients[1 : HARMONICS + 1]
+        return self.coefficients[_COSINES]
 
     @property
     def sines(self) -> FloatArray:
         """Sine coefficients of the harmonics, shape (HARMONICS,)."""
+        return self.coefficients[self._sines]
+
+    @property
+    def _sines(self) -> slice:
         start = HARMONICS + self.rates.size
-        return self.coefficients[start : start + HARMONICS]
+        return slice(start, start + HARMONICS)
 
     def periodic(self) -> FloatArray:
         """Return the series without the tones, over time."""
-        phases = np.outer(self.time, self.fundamental * _ORDERS)
+        phases = np.outer(self.time, self.rates[0] * _ORDERS)
         return np.asarray(
             self.coefficients[0] + np.cos(phases) @ self.cosines + np.sin(phases) @ self.sines
         )
@@ -90,26 +79,18 @@ class Fit:
         """Weighted sum of the remainder's squares."""
         return float(self.weights @ self.remainder**2)
 
-    def newton_step(self) -> FloatArray:
-        """Return the change of the rates that the linearized model asks for, coefficients free."""
-        change = _solve(self._tangent, self.remainder, self.weights)
-        return change[self.coefficients.size :]
-
     def frequency(self) -> Known:
         """Return ω and its error."""
         gradient = np.zeros(self.coefficients.size + self.rates.size)
         gradient[self.coefficients.size] = 1.0
-        return self._known(self.fundamental, gradient)
+        return self._known(float(self.rates[0]), gradient)
 
     def half_peak_to_peak(self) -> Known:
         """Return half the height of the series, from its lowest to its highest, and its error."""
         top, bottom = (self._turn(sign) for sign in (1.0, -1.0))
         gradient = np.zeros(self.coefficients.size + self.rates.size)
-        start = HARMONICS + self.rates.size
-        gradient[1 : HARMONICS + 1] = 0.5 * (np.cos(top * _ORDERS) - np.cos(bottom * _ORDERS))
-        gradient[start : start + HARMONICS] = 0.5 * (
-            np.sin(top * _ORDERS) - np.sin(bottom * _ORDERS)
-        )
+        gradient[_COSINES] = 0.5 * (np.cos(top * _ORDERS) - np.cos(bottom * _ORDERS))
+        gradient[self._sines] = 0.5 * (np.sin(top * _ORDERS) - np.sin(bottom * _ORDERS))
         height = float(gradient[: self.coefficients.size] @ self.coefficients)
         return self._known(height, gradient)
 
@@ -141,13 +122,13 @@ class Fit:
         the fit has absorbed the error, so r̂ is the largest of its neighbors.
         """
         inverse, samples = self._inverse, 2 * self.x.size
-        influence = self.weights * (self._tangent @ (inverse @ (inverse.T @ gradient)))
+        influence = self.weights * (self.tangent @ (inverse @ (inverse.T @ gradient)))
         of_influence = np.abs(np.fft.rfft(influence, samples))
         bound = 2.0 / samples * float(of_influence @ self._unlucky)
         return Known(value=value, error=bound + _ROUND_OFF * abs(value))
 
     @cached_property
-    def _tangent(self) -> FloatArray:
+    def tangent(self) -> FloatArray:
         """Derivatives of the model by coefficients, ω and ν, (samples, all)."""
         return np.hstack([self.columns, _slopes(self.time, self.columns, self.coefficients)])
 
@@ -155,7 +136,7 @@ class Fit:
     def _inverse(self) -> FloatArray:
         """The weighted tangent's triangle, inverted."""
         root = np.sqrt(self.weights)[:, None]
-        return np.linalg.pinv(np.linalg.qr(root * self._tangent, mode="r"), rcond=1e-12)
+        return np.linalg.pinv(np.linalg.qr(root * self.tangent, mode="r"), rcond=1e-12)
 
     @cached_property
     def _unlucky(self) -> FloatArray:
@@ -165,18 +146,11 @@ class Fit:
         return np.asarray(ndimage.maximum_filter1d(spectrum, 4 * _LOBE + 1))
 
 
-_ORDERS = np.arange(1.0, HARMONICS + 1.0)
-
-
 def fit_signal(time: FloatArray, x: FloatArray, guess: float) -> Fit:
     """Fit a series of fundamental near `guess`, and as many tones as make it better known.
 
-    Parameters
-    ----------
-    time, x : ndarray of shape (samples,)
-        Increasing times from 0 to 1, evenly spaced or not, and the signal, of the order of one.
-    guess : float
-        ω [rad per unit of time], to a third of a turn over the window.
+    Times increase from 0 to 1, evenly spaced or not; the signal x is of the order of one. The guess
+    is ω [rad per unit of time], to a third of a turn over the window.
     """
     # Hann's window all but silences what is more than two turns away from a tone.
     weights = np.sin(np.pi * time) ** 2 * np.gradient(time)
@@ -184,7 +158,7 @@ def fit_signal(time: FloatArray, x: FloatArray, guess: float) -> Fit:
     failures = 0
     room = (2 * time.size // 3 - best.coefficients.size) // 3
     for _ in range(min(_TONES, room)):
-        if best.frequency().error < 2.0 * _ROUND_OFF * best.fundamental or failures == 2:
+        if best.frequency().error < 2.0 * _ROUND_OFF * best.rates[0] or failures == 2:
             break
         rates = np.append(fit.rates, _loudest(time, fit.remainder))
         fit = _descend(time, x, weights, rates)
@@ -209,14 +183,12 @@ def _descend(
 
     def at(rates: FloatArray) -> Fit:
         columns = _columns(time, rates)
-        coefficients = _solve(columns, x, weights)
-        return Fit(
-            time=time, x=x, weights=weights, rates=rates, coefficients=coefficients, columns=columns
-        )
+        return Fit(time, x, weights, rates, _solve(columns, x, weights), columns)
 
     fit = at(rates)
     for _ in range(most):
-        step = fit.newton_step()
+        # The change that the linearized model asks for, coefficients free.
+        step = _solve(fit.tangent, fit.remainder, weights)[fit.coefficients.size :]
         # Beyond a tenth of a turn over the window the linearization means nothing.
         step /= max(1.0, float(np.abs(step).max()) / 0.6)
         for _ in range(5):

@@ -25,20 +25,7 @@ from ..runs.attributes import versions
 
 
 class Cache:
-    """A folder of results: a file for each, named by its inputs and the code that made it.
-
-    Parameters
-    ----------
-    folder : path
-        Made if needed.
-    made_by : mapping
-        What else than the description and the versions of libraries decides a result: its code.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written.
-    """
+    """A folder of results: a file for each, named by its inputs, versions and what made it."""
 
     def __init__(self, folder: str | os.PathLike[str], *, made_by: Mapping[str, str]) -> None:
         self._folder = writable_folder(folder)
@@ -82,16 +69,13 @@ class Cache:
 
 def cache_of(folder: str | os.PathLike[str], element: str | Formulation) -> Cache | None:
     """Return the cache in a folder; none, with a warning, of an element that no file defines."""
-    model = formulation(element)
-    made_by = maker(model)
-    if made_by is None:
-        cls = type(model)
-        warn(
-            f"files do not determine {cls.__qualname__}, so its cases are not kept in the cache: "
-            "define it at the top level of a module on file"
-        )
-        return None
-    return Cache(folder, made_by=made_by)
+    if made_by := maker(element):
+        return Cache(folder, made_by=made_by)
+    warn(
+        f"files do not determine {type(element).__qualname__}, so its cases are not kept in the "
+        "cache: define it at the top level of a module on file"
+    )
+    return None
 
 
 def maker(element: str | Formulation) -> dict[str, str] | None:
@@ -99,13 +83,8 @@ def maker(element: str | Formulation) -> dict[str, str] | None:
 
     The code is a digest of the files of both packages and of those of the element's class and its
     bases: all of a package, or a module with its neighbors. Any change of a file counts, that of
-    a docstring too.
-
-    Returns
-    -------
-    dict or None
-        None if the files do not determine the class: it is not on file, as in an interactive
-        session, or it is made inside a function, whose values it may use.
+    a docstring too. None if the files do not determine the class: it is not on file, as in an
+    interactive session, or it is made inside a function, whose values it may use.
     """
     cls = type(formulation(element))
     tops = {base.__module__.partition(".")[0] for base in cls.__mro__} - sys.stdlib_module_names
@@ -133,13 +112,7 @@ def _files(name: str) -> list[tuple[str, bytes]]:
 def worker_pool(executor: Executor | None, jobs: int | None, most: int) -> Iterator[Executor]:
     """Give the caller's executor, left open, or our own spawned processes, closed at the end.
 
-    Parameters
-    ----------
-    executor : concurrent.futures.Executor or None
-    jobs : int or None
-        Number of processes, by default the cores.
-    most : int
-        Number of pieces of work, more processes than which would idle.
+    These are `jobs`, by default one per core, but no more than the `most` that have work.
     """
     if executor is not None:
         yield executor

@@ -22,11 +22,11 @@ from analytic.loads import Load
 
 from ..fem.case import RunCase
 from ..fem.elements import Formulation
-from ..fem.lazily import Frame
 from ..fem.linearization import Linearization
 from ..fem.simulation import run_case
 from ..labels import OMEGA, dataset
 from ..lazily import xr
+from ..runs import Frame
 from ..runs.attributes import versions
 from ..runs.check import SimulationError
 from ..runs.oscillation import OSCILLATION, NoOscillationError, steady_oscillation
@@ -232,11 +232,8 @@ def _kept(store: Cache | None, case: RunCase, result: xr.Dataset) -> xr.Dataset:
 def solve(case: RunCase) -> xr.Dataset:
     """Run one case and measure it: the unit of work, a pure function of the case.
 
-    Returns
-    -------
-    Dataset
-        q over `time`; the measured numbers and the verdict as attributes. Of a case that fails, the
-        attributes alone: `failure` says why.
+    Return q over `time`, with the measured numbers and the verdict as attributes. Of a case that
+    fails, the attributes alone: `failure` says why.
     """
     try:
         run = run_case(case)

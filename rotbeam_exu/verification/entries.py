@@ -18,10 +18,10 @@ from ..fem.elements import (
     Substructures,
     require_modeled,
 )
-from ..fem.lazily import Frame
 from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
+from ..runs import Frame
 from .cases import Case
 from .verify import Entry
 

@@ -90,7 +90,7 @@ def test_shapes_and_a_damping_ratio(loaded):
 
 
 def test_a_shape_that_is_no_table_is_refused(loaded):
-    with pytest.raises(ValueError, match="write a shape as a table"):
+    with pytest.raises(ValueError, match=r"write \[\[blade.stations.shapes\]\] as a table"):
         loaded("", SHAPES.replace("[{ kind", '["Tube", { kind'))
 
 

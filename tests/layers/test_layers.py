@@ -41,7 +41,7 @@ FLOORS = {
     ],
 }
 ALLOWED = {
-    "exudyn": ("rotbeam_exu/fem/",),
+    "exudyn": ("rotbeam_exu/fem/", "rotbeam_exu/lazily.py"),
     # A result draws itself, on axes that only analytic.plotting makes, when it is asked to.
     "matplotlib": ("rotbeam_exu/figures/", "analytic/plotting.py"),
 }
@@ -116,6 +116,12 @@ def test_no_arrow_points_up_and_each_library_has_its_room():
 )
 def test_an_import_the_wrong_way_is_found(name, target):
     assert forbidden(name, target)
+
+
+def test_no_other_room_takes_exudyn_from_where_it_is_imported_lazily():
+    taking = re.compile(r"^from \.+lazily import .*\b(exudyn|items)\b", re.MULTILINE)
+    rooms = {name.split(".")[1] for name in KNOWN if taking.search(KNOWN[name].read_text("utf-8"))}
+    assert rooms == {"fem"}
 
 
 def test_a_command_writes_its_results_by_a_job():

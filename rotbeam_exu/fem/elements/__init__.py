@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable
 
 from analytic import AnyBlade
 from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
 
-from ..lazily import Frame
+from ...runs import Frame
 from .ancf3 import Ancf3
 from .cable import Cable, SpaceCable
 from .formulation import Chain, Formulation
@@ -27,53 +25,30 @@ FORMULATIONS = {cls.name: cls for cls in _ELEMENTS}
 """The class of each formulation, in the plane or in space; its fields are its options."""
 
 
-def formulation(
-    element: str | Formulation, options: Mapping[str, object] | None = None
-) -> Formulation:
-    """Return the formulation called `element`, with `options`; a Formulation is passed through.
-
-    Raises
-    ------
-    ValueError
-        If the name, or an option of it, is not known: the sentence says which are.
-    """
+def formulation(element: str | Formulation) -> Formulation:
+    """Return the formulation called `element`, or say which are known; pass a Formulation."""
     if not isinstance(element, str):
-        if not _is_formulation(element):
-            raise TypeError(
-                "element must be the name of a formulation, or an instance of a frozen dataclass "
-                "that inherits from a kind of node and whose options are numbers and text, as "
-                f"Exact(nodes=3), got {shown(element)}"
-            )
-        return element
+        try:  # whether it hashes, and a file can hold it
+            _ = hash(element), describe(element)
+            if isinstance(element, Formulation):
+                return element
+        except TypeError:
+            pass
+        raise TypeError(
+            "element must be the name of a formulation, or an instance of a frozen dataclass "
+            "that inherits from a kind of node and whose options are numbers and text, as "
+            f"Exact(nodes=3), got {shown(element)}"
+        )
     if element not in FORMULATIONS:
         names = ", ".join(map(repr, FORMULATIONS))
         raise ValueError(f"unknown element {element!r}; known are {names}")
-    cls: Any = FORMULATIONS[element]
-    fields = [field.name for field in dataclasses.fields(cls)]
-    for name in options or {}:
-        if name not in fields:
-            has = f"its options are {', '.join(fields)}" if fields else "it has no options"
-            raise ValueError(f"element {element!r} has no option {name!r}; {has}")
-    model: Formulation = cls(**(options or {}))
-    return model
-
-
-def _is_formulation(element: object) -> bool:
-    """Whether it is one, hashes, and a file can hold it."""
-    try:
-        _ = hash(element), describe(element)
-    except TypeError:
-        return False
-    return isinstance(element, Formulation)
+    return FORMULATIONS[element]()
 
 
 def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial") -> None:
     """Refuse a blade that the formulation does not model, or not in this frame.
 
-    Raises
-    ------
-    ValueError
-        It names the property of the blade, and the formulations that take it.
+    The sentence names the property of the blade, and the formulations that take it.
     """
     model.require_section(beam)
     if frame not in ("inertial", "rotating"):

@@ -12,7 +12,7 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
-from ..lazily import exudyn
+from ...lazily import exudyn
 from ..mesh import Mesh, lagrange
 from .energy_body import Assembly, add_energy_body, add_point_masses
 from .formulation import POISSON_RATIO, Chain, Sheared
@@ -95,7 +95,7 @@ class Ancf3(Sheared, SectionSlopeNodes):
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=3)
         body = _Row(self, mesh)
         nodes = self.add_nodes(mbs, mesh.positions)
-        add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body.force, body.tangent)
+        add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body)
         turning = add_point_masses(mbs, nodes, mesh)
         return Chain(nodes=nodes, elastic_energy=body.energy, turning=turning)
 

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
 
 from analytic import AnyBlade
-from analytic.arrays import ComplexArray, FloatArray
+from analytic.arrays import FloatArray
 from analytic.beam import require_out_of_plane
 from analytic.quadrature import gauss_points
 
-from ..lazily import exudyn, items
+from ...lazily import exudyn, items
 from ..mesh import Mesh, shapes
 from .energy_body import add_point_masses
-from .formulation import Chain, Formulation
+from .formulation import Chain, Formulation, rate_of
 from .node_kinds import SlopeNodes, SpaceSlopeNodes, require_bare
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))
@@ -53,12 +53,13 @@ class _Cables(Formulation, abstract=True):
             )
             for i, pair in enumerate(pairwise(nodes))
         )
-        chain = self.chain(mesh, nodes, bodies)
-        return replace(chain, turning=add_point_masses(mbs, nodes, mesh))
-
-    def chain(self, mesh: Mesh, nodes: Any, bodies: Any) -> Chain:
-        """Return the chain with the energy or the dissipation that Exudyn does not report."""
-        raise NotImplementedError
+        viscous = damping.bending or damping.axial
+        return Chain(
+            nodes=nodes,
+            bodies=bodies,
+            dissipation=partial(_dissipation, mesh) if viscous else None,
+            turning=add_point_masses(mbs, nodes, mesh),
+        )
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """|r'| - 1 at the nodes."""
@@ -84,29 +85,6 @@ class Cable(_Cables, SlopeNodes):
     name: ClassVar[str] = "cable"
     takes_viscosity: ClassVar[bool] = True
     body: ClassVar[str] = "ObjectANCFCable2D"
-
-    def chain(self, mesh: Mesh, nodes: Any, bodies: Any) -> Chain:
-        """Return the chain with what viscosity takes: ∫(EI η_b κ̇² + EA η_a ε̇²) dx.
-
-        With z = r_x + i r_y: ε̇ = |z'| Re(ż'/z') and κ = Im(z''/z').
-        """
-        damping = mesh.blade.damping
-
-        def stretching(slope: ComplexArray, rate: ComplexArray) -> FloatArray:
-            return np.asarray(damping.axial * (np.abs(slope) * (rate / slope).real) ** 2)
-
-        def bending(
-            slope: ComplexArray, second: ComplexArray, rate: ComplexArray, turning: ComplexArray
-        ) -> FloatArray:
-            change = (turning - second * rate / slope) / slope
-            return np.asarray(damping.bending * change.imag**2)
-
-        def dissipation(coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
-            rows = (e[..., ::2] + 1j * e[..., 1::2] for e in (coordinates, velocities))
-            return _integrated(mesh, stretching, bending, *rows)
-
-        viscous = damping.bending or damping.axial
-        return Chain(nodes=nodes, bodies=bodies, dissipation=dissipation if viscous else None)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,40 +115,30 @@ class SpaceCable(_Cables, SpaceSlopeNodes):
                 "blade.with_section_out_of_plane(bending_ratio=1.0)"
             )
 
-    def chain(self, mesh: Mesh, nodes: Any, bodies: Any) -> Chain:
-        """Return the chain with its elastic energy, with κ = |r'×r''|/|r'|²."""
 
-        def stretching(slope: FloatArray) -> FloatArray:
-            return np.asarray(0.5 * (np.linalg.norm(slope, axis=-1) - 1.0) ** 2)
+def _dissipation(mesh: Mesh, coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
+    """Return ∫(EA η_a ε̇² + EI η_b κ̇²) dx of cables in the plane, (samples,)."""
+    damping, sections = mesh.blade.damping, mesh.sections
 
-        def bending(slope: FloatArray, second: FloatArray) -> FloatArray:
-            across = np.sum(np.cross(slope, second) ** 2, axis=-1)
-            return np.asarray(0.5 * across / np.sum(slope**2, axis=-1) ** 2)
+    def at(xi: float, order: int, row: Any) -> Any:
+        """Return the derivatives (2, samples, elements) of the axis to x."""
+        ends = np.concatenate((row[:, :-1], row[:, 1:]), axis=2)
+        weights = np.kron(shapes(xi, mesh.length, order)[:, None], np.eye(2))
+        return np.moveaxis(ends @ weights, -1, 0)
 
-        def energy(coordinates: FloatArray) -> FloatArray:
-            vectors = coordinates.reshape(*coordinates.shape[:2], 2, 3)
-            return _integrated(mesh, stretching, bending, vectors)
+    def strain(xi: float, row: Any) -> Any:
+        return np.sqrt(np.sum(at(xi, 1, row) ** 2, axis=0)) - 1.0
 
-        return Chain(nodes=nodes, elastic_energy=energy)
+    def curvature(xi: float, row: Any) -> Any:
+        (x, y), (x2, y2) = at(xi, 1, row), at(xi, 2, row)
+        return (x * y2 - y * x2) / (x**2 + y**2)
 
-
-def _integrated(
-    mesh: Mesh,
-    stretching: Callable[..., FloatArray],
-    bending: Callable[..., FloatArray],
-    *rows: Any,
-) -> FloatArray:
-    """Return ∫(EA stretching + EI bending) dx, (samples,), as Exudyn integrates.
-
-    Of rows of positions and slopes (samples, nodes, 2, ...), by their first and second derivatives.
-    """
-    ends = [np.concatenate((row[:, :-1], row[:, 1:]), axis=2) for row in rows]
-
-    def at(xi: float, orders: Sequence[int]) -> list[Any]:
-        weights = [shapes(xi, mesh.length, order) for order in orders]
-        return [np.einsum("k,sek...->se...", w, row) for row in ends for w in weights]
-
-    EA, EI = mesh.sections.axial_stiffness, mesh.sections.bending_stiffness
-    axial = sum(weight * stretching(*at(xi, [1])) @ EA for xi, weight in _LOBATTO)
-    bent = sum(weight * bending(*at(xi, [1, 2])) @ EI for xi, weight in _GAUSS)
-    return np.asarray(mesh.length * (axial + bent))
+    power = np.zeros(len(coordinates))
+    for of, points, stiffness in (
+        (strain, _LOBATTO, damping.axial * sections.axial_stiffness),
+        (curvature, _GAUSS, damping.bending * sections.bending_stiffness),
+    ):
+        for xi, weight in points:
+            rate = rate_of(partial(of, xi), coordinates, velocities)
+            power += mesh.length * weight * rate**2 @ stiffness
+    return power

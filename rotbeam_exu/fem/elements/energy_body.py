@@ -17,21 +17,14 @@ from numpy.typing import NDArray
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
-from ..lazily import exudyn, items
+from ...lazily import exudyn, items
 from ..mesh import Mesh
 
 
 class Assembly:
     """Places of the coordinates of equal elements, in a row of nodes, among all coordinates.
 
-    Parameters
-    ----------
-    elements : int
-        Elements in the row.
-    inner : int
-        Nodes that an element adds, one fewer than it has.
-    per_node : int
-        Coordinates of a node.
+    An element adds `inner` nodes, one fewer than it has.
     """
 
     def __init__(self, elements: int, inner: int, per_node: int) -> None:
@@ -65,21 +58,17 @@ class Assembly:
 
 
 def add_energy_body(
-    mbs: exudyn.MainSystem,
-    nodes: Sequence[exudyn.NodeIndex],
-    mass: sparse.csr_array,
-    force: Callable[[FloatArray], FloatArray],
-    tangent: Callable[[FloatArray], FloatArray],
+    mbs: exudyn.MainSystem, nodes: Sequence[exudyn.NodeIndex], mass: sparse.csr_array, row: Any
 ) -> None:
     """Add M e'' + f(e) = 0 over the coordinates e of `nodes`, reference included.
 
-    `force` returns f, the gradient of the elastic energy, and `tangent` its derivative as
+    `row.force` returns f, the gradient of the elastic energy, and `row.tangent` its derivative as
     triplets to be added up.
     """
     add_force(
-        mbs, nodes, mass.shape[0],
-        force=lambda t, e, rates: -force(e),
-        derivatives=lambda t, e: [(tangent(e), -1.0, 0.0)],
+        mbs, nodes,
+        force=lambda t, e, rates: -row.force(e),
+        derivatives=lambda t, e: [(row.tangent(e), -1.0, 0.0)],
         mass=mass,
     )  # fmt: skip
 
@@ -87,19 +76,18 @@ def add_energy_body(
 def add_force(
     mbs: exudyn.MainSystem,
     nodes: Sequence[exudyn.NodeIndex],
-    size: int,
     *,
     force: Callable[[float, FloatArray, FloatArray], FloatArray],
     derivatives: Callable[[float, FloatArray], Sequence[tuple[FloatArray, float, float]]],
     mass: sparse.csr_array | None = None,
 ) -> None:
-    """Add M e'' = f(t, e, e') over the coordinates e of `nodes`, (size,), reference included.
+    """Add M e'' = f(t, e, e') over the coordinates e of `nodes`, reference included.
 
     `derivatives` returns parts, each a matrix as triplets to be added up, and the factors with
     which it stands in ∂f/∂e and in ∂f/∂e'. Without `mass` M is zero.
     """
     reference = np.concatenate([mbs.GetNodeParameter(n, "referenceCoordinates") for n in nodes])
-    container = exudyn.MatrixContainer()
+    size, container = reference.size, exudyn.MatrixContainer()
     container.SetWithSparseMatrix(sparse.csr_matrix((size, size) if mass is None else mass))
 
     def applied(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> FloatArray:
@@ -164,10 +152,7 @@ def add_point_inertias(
 
 
 def _add_inertia(
-    mbs: exudyn.MainSystem,
-    node: exudyn.NodeIndex,
-    inertia: float,
-    acceleration: Callable[[float], float],
+    mbs: exudyn.MainSystem, node: Any, inertia: float, acceleration: Callable[[float], float]
 ) -> None:
     reference = np.array(mbs.GetNodeParameter(node, "referenceCoordinates"))[_SLOPE]
 

@@ -20,7 +20,7 @@ from analytic.lazily import sparse
 from analytic.motion import Rotation
 from analytic.theory import Theory
 
-from ..lazily import exudyn, items
+from ...lazily import exudyn, items
 from ..mesh import lagrange
 from .energy_body import TurningNode, spins
 
@@ -38,18 +38,17 @@ class Chain:
     Parameters
     ----------
     nodes : tuple of NodeIndex
-        Nodes from the clamped root to the free tip.
+        From the clamped root to the free tip.
     bodies : tuple of ObjectIndex
-        Objects that report their elastic energy as their potential energy, where they do.
+        Elements of Exudyn, which report their elastic energy as their potential energy.
     elastic_energy : callable, optional
-        The elastic energy [J], (samples,), from the coordinates of the nodes, reference included,
-        (samples, nodes, n), where Exudyn's objects do not report it.
+        That of bodies of our own [J], (samples,), by the coordinates of the nodes, reference
+        included, (samples, nodes, n).
     turning : tuple of TurningNode
-        Nodes whose slopes, coordinates 2 and 3, get an inertia: no constant mass matrix holds it,
-        and `drive` adds it.
+        Nodes whose slopes, coordinates 2 and 3, get an inertia: no constant mass matrix holds it.
     dissipation : callable, optional
-        The power [W], (samples,), that the viscosity of the beam takes, from coordinates and rates
-        of the nodes (samples, nodes, n) in any one frame, where the beam has viscosity.
+        The power [W], (samples,), that viscosity takes, by coordinates and rates of the nodes in
+        any one frame.
     """
 
     nodes: tuple[exudyn.NodeIndex, ...]
@@ -270,22 +269,10 @@ class Formulation(Described, abstract=True):
     ) -> tuple[FloatArray, FloatArray]:
         """Return the kinetic energy T and the angular momentum L_z = ∂T/∂w about the axis.
 
-        Both are (samples,). With c = cos ψ and s = sin ψ, the velocity in the plane of bending
-        contains a rotation by c w. Normal to it a point moves by s w times its distance x along the
-        clamp's line.
-
-        Parameters
-        ----------
-        beam : Beam or Blade
-        mass : csr_array
-            Of the chain, but for the inertia of its turning nodes.
-        turning : tuple of TurningNode
-        coordinates : ndarray (samples, nodes, n)
-            In the frame of the clamp, reference included.
-        velocities : ndarray (samples, nodes, n)
-            Absolute, in the plane of bending, by the axes of that frame.
-        rate : ndarray (samples,)
-            w.
+        Of coordinates (samples, nodes, n) in the frame of the clamp, of velocities by its axes that
+        are absolute in the plane of bending, and of the speed w. With c = cos ψ and s = sin ψ,
+        these contain a rotation by c w. Normal to the plane a point moves by s w times its distance
+        x along the clamp's line.
         """
         samples, setting = rate.size, self.setting(beam)
         v = velocities.reshape(samples, -1)
@@ -304,6 +291,13 @@ def cells(count: int, s: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
     """Return in which of equal cells places from 0 to 1 are, and where inside, from 0 to 1."""
     cell = np.minimum((count * s).astype(int), count - 1)
     return cell, count * s - cell
+
+
+def rate_of(
+    strain: Callable[[Any], Any], coordinates: FloatArray, velocities: FloatArray
+) -> FloatArray:
+    """Return the rate of an analytic function of coordinates, to round-off: an imaginary step."""
+    return np.asarray(strain(coordinates + 1e-30j * velocities).imag / 1e-30)
 
 
 class Sheared:

@@ -21,7 +21,7 @@ from analytic.beam import require_planar
 from analytic.input_checks import whole_number
 from analytic.lazily import linalg, optimize
 
-from ..lazily import exudyn
+from ...lazily import exudyn
 from ..mesh import HERMITE, scales
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain
@@ -41,12 +41,12 @@ class _LinearFrames(SlopeNodes, abstract=True):
         """Add one body for the whole beam, along the x axis."""
         row = self.row(beam, elements)
         nodes = self.add_nodes(mbs, row.reference[::4])
-        add_energy_body(mbs, nodes, row.mass, row.force, row.tangent)
+        add_energy_body(mbs, nodes, row.mass, row)
         return Chain(nodes=nodes, elastic_energy=row.energy)
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """∂u_x/∂x in the frames, at their nodes: the strain of the model."""
-        row = self.row(beam, self._elements(coordinates.shape[-2]))
+        row = self.row(beam, (coordinates.shape[-2] - 1) // getattr(self, "cells", 1))
         local = row.local(coordinates.reshape(*coordinates.shape[:-2], -1))[0]
         strain = local.reshape(*local.shape[:-1], -1, 4)[..., 2] - 1.0
         return np.asarray(strain.reshape(*coordinates.shape[:-2], -1))
@@ -64,9 +64,6 @@ class _LinearFrames(SlopeNodes, abstract=True):
         while (upper := 1.5 * lower) and row.lowest_eigenvalue(upper) > 0.0:
             lower = upper
         return float(optimize.brentq(row.lowest_eigenvalue, lower, upper, rtol=1e-10))
-
-    def _elements(self, nodes: int) -> int:
-        return nodes - 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,9 +132,6 @@ class Substructures(_LinearFrames):
         """Return `elements` frames."""
         return FrameRow(beam, elements, self.cells, self.frame)
 
-    def _elements(self, nodes: int) -> int:
-        return (nodes - 1) // self.cells
-
 
 class FrameRow:
     """Energy, forces and tangent of frames in a row, all at once, with mass and steady state."""
@@ -150,8 +144,7 @@ class FrameRow:
         self.mass = Assembly(frames * cells, inner=1, per_node=4).matrix(mass)
         self._stiffness = inside.matrix(stiffness).toarray()
         along = length * np.arange(self.assembly.nodes)
-        zero, one = np.zeros_like(along), np.ones_like(along)
-        self.reference = np.stack([along, zero, one, zero], axis=1).ravel()
+        self.reference = np.array([[x, 0.0, 1.0, 0.0] for x in along]).ravel()
         self._shape = self.reference[: inside.size]  # X of every frame
         # The angle of a frame is that of the vector p = P e.
         self._direction = np.zeros((2, inside.size))
@@ -220,9 +213,8 @@ class FrameRow:
             residual = self.force(e) - omega**2 * mass @ e
             e[free] -= np.linalg.solve(effective[np.ix_(free, free)], residual[free])
         effective = self._tangent_matrix(e) - omega**2 * mass
-        pick = np.ix_(free, free)
-        lowest = linalg.eigh(effective[pick], mass[pick], eigvals_only=True, subset_by_index=[0, 0])
-        return float(lowest[0])
+        pair = effective[np.ix_(free, free)], mass[np.ix_(free, free)]
+        return float(linalg.eigh(*pair, eigvals_only=True, subset_by_index=[0, 0])[0])
 
     def _tangent_matrix(self, e: FloatArray) -> FloatArray:
         values = self.tangent(e)[:, 2].reshape(*self.assembly.index.shape, -1)

@@ -16,7 +16,7 @@ from analytic.arrays import FloatArray
 from analytic.beam import require_blade
 from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.exact.beam.state import BeamState
-from analytic.lazily import Lazily
+from analytic.lazily import spatial
 
 from ..mesh import shapes
 from .formulation import Formulation, cells
@@ -27,8 +27,6 @@ QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 ABOUT_Z = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
 """The generator of rotations about z; of (x, y, φ) too, to whose angle they add."""
 
-
-_turns = Lazily("scipy.spatial.transform")
 
 _HALF_TURN = np.array(
     [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
@@ -216,7 +214,7 @@ def _section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
 
 def directors(p: FloatArray) -> FloatArray:
     """Return the rotations (..., 3, 3) of Euler parameters (..., 4), whatever their norm."""
-    flat = _turns.Rotation.from_quat(p.reshape(-1, 4)[:, [1, 2, 3, 0]]).as_matrix()
+    flat = spatial.transform.Rotation.from_quat(p.reshape(-1, 4)[:, [1, 2, 3, 0]]).as_matrix()
     return np.asarray(flat.reshape(*p.shape[:-1], 3, 3))
 
 

@@ -11,9 +11,9 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
-from ..lazily import exudyn, items
+from ...lazily import exudyn, items
 from ..mesh import Mesh, lagrange
-from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
+from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared, rate_of
 from .node_kinds import AngleNodes
 
 
@@ -66,80 +66,49 @@ class Exact(Sheared, AngleNodes):
         mesh = Mesh(blade=beam, elements=elements, nodes_of_element=self.nodes)
         nodes = self.add_nodes(mbs, mesh.positions)
         inner, at, damping = self.nodes - 1, mesh.sections, beam.damping
-        for i in range(elements):
-            EI, EA = at.bending_stiffness[i], at.axial_stiffness[i]
+        EI, EA = at.bending_stiffness, at.axial_stiffness
+        bodies = tuple(
             mbs.AddObject(
                 items.ObjectBeamGeometricallyExact2D(
                     nodeNumbers=list(nodes[inner * i : inner * (i + 1) + 1]),
                     length=mesh.length,
                     massPerLength=at.mass_per_length[i],
                     crossSectionInertia=at.rotary_inertia[i],
-                    bendingStiffness=EI,
-                    axialStiffness=EA,
-                    shearStiffness=self.shear_share * EA,
-                    bendingDamping=EI * damping.bending,
-                    axialDamping=EA * damping.axial,
+                    bendingStiffness=EI[i],
+                    axialStiffness=EA[i],
+                    shearStiffness=self.shear_share * EA[i],
+                    bendingDamping=EI[i] * damping.bending,
+                    axialDamping=EA[i] * damping.axial,
                 )
             )
+            for i in range(elements)
+        )
         for node, one in mesh.lumped():
             mbs.AddObject(
                 items.ObjectRigidBody2D(nodeNumber=nodes[node], mass=one.mass, inertia=one.inertia)
             )
-        row = _Row(self, beam, elements)
         viscous = damping.bending or damping.axial
-        return Chain(
-            nodes=nodes, elastic_energy=row.energy, dissipation=row.dissipation if viscous else None
-        )
+        taken = _Row(self, beam, elements).dissipation if viscous else None
+        return Chain(nodes=nodes, bodies=bodies, dissipation=taken)
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """r'·d - 1 at the Gauss points."""
         elements = (coordinates.shape[-2] - 1) // (self.nodes - 1)
-        return _Row(self, beam, elements).strains(coordinates)[0]
+        return np.asarray(_Row(self, beam, elements).strains(coordinates)[0])
 
 
 class _Row:
-    """Strains, energy and dissipation of a row of elements at all Gauss points, (..., points)."""
+    """Strains and dissipation of a row of elements at all Gauss points, (..., points)."""
 
     def __init__(self, element: Exact, beam: AnyBlade, elements: int) -> None:
         self._inner = inner = element.nodes - 1
-        self._beam, self._shear_share = beam, element.shear_share
-        sections = Mesh(blade=beam, elements=elements).sections
-        self._EA = np.repeat(sections.axial_stiffness, inner)
-        self._EI = np.repeat(sections.bending_stiffness, inner)
+        self._mesh = Mesh(blade=beam, elements=elements)
         points = gauss_points(inner)[0]
         self._values = lagrange(points, inner)
         self._slopes = lagrange(points, inner, 1) * elements / beam.length
 
-    def strains(self, coordinates: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return axial, shear and bending strain."""
-        e, e_x = self._at_gauss_points(coordinates)
-        sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
-        return (
-            cosine * e_x[..., 0] + sine * e_x[..., 1] - 1.0,
-            cosine * e_x[..., 1] - sine * e_x[..., 0],
-            e_x[..., 2],
-        )
-
-    def energy(self, coordinates: FloatArray) -> FloatArray:
-        """Return the elastic energy [J] of coordinates (samples, nodes, 3), which Exudyn keeps."""
-        axial, shear, curvature = self.strains(coordinates)
-        density = self._EA * (axial**2 + self._shear_share * shear**2) + self._EI * curvature**2
-        # The points of an element, one or two, weigh the same.
-        return np.asarray(0.5 * self._beam.length * density.mean(axis=-1))
-
-    def dissipation(self, coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
-        """Return the power (samples,) that bending and axial damping take."""
-        shear, damping = self.strains(coordinates)[1], self._beam.damping
-        angle = self._at_gauss_points(coordinates)[0][..., 2]
-        rate, rate_x = self._at_gauss_points(velocities)
-        axial = np.cos(angle) * rate_x[..., 0] + np.sin(angle) * rate_x[..., 1]
-        axial += rate[..., 2] * shear
-        power = damping.axial * self._EA * axial**2
-        power += damping.bending * self._EI * rate_x[..., 2] ** 2
-        return np.asarray(self._beam.length * power.mean(axis=-1))
-
-    def _at_gauss_points(self, coordinates: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the coordinates and their slopes, each (..., points, 3)."""
+    def strains(self, coordinates: FloatArray) -> FloatArray:
+        """Return axial and bending strain, (2, ..., points)."""
         inner, count = self._inner, (coordinates.shape[-2] - 1) // self._inner
         per_element = coordinates[..., inner * np.arange(count)[:, None] + np.arange(inner + 1), :]
         flat = (*coordinates.shape[:-2], inner * count, 3)
@@ -147,4 +116,14 @@ class _Row:
             np.einsum("pn,...jnc->...jpc", s, per_element).reshape(flat)
             for s in (self._values, self._slopes)
         )
-        return e, e_x
+        sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
+        return np.stack((cosine * e_x[..., 0] + sine * e_x[..., 1] - 1.0, e_x[..., 2]))
+
+    def dissipation(self, coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
+        """Return the power (samples,) that bending and axial damping take."""
+        axial, bending = rate_of(self.strains, coordinates, velocities)
+        damping, at = self._mesh.blade.damping, self._mesh.sections
+        power = axial**2 @ np.repeat(damping.axial * at.axial_stiffness, self._inner)
+        power += bending**2 @ np.repeat(damping.bending * at.bending_stiffness, self._inner)
+        # The points of an element, one or two, weigh the same.
+        return np.asarray(self._mesh.length / self._inner * power)

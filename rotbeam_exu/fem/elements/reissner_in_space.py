@@ -12,18 +12,16 @@ import numpy as np
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.exact.space.unit import space_unit
-from analytic.lazily import Lazily
+from analytic.lazily import spatial
 from analytic.motion import Rotation
 from analytic.quadrature import gauss_points
 from analytic.theory import Theory
 
-from ..lazily import exudyn, items
+from ...lazily import exudyn, items
 from ..mesh import Mesh
 from .energy_body import Assembly, add_force
 from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .node_kinds import FrameNodes, directors, require_bare, turning_rate
-
-_turns = Lazily("scipy.spatial.transform")
 
 _INNER, _ = gauss_points(2)
 """Where Exudyn integrates the inertia against rotation, with equal weights, as measured."""
@@ -101,17 +99,17 @@ class SpaceExact(Sheared, FrameNodes):
         nodes = tuple(
             mbs.AddNode(items.NodeRigidBodyEP(referenceCoordinates=one)) for one in row.reference
         )
+        bodies = []
         for i, pair in enumerate(pairwise(nodes)):
             data: Any = exudyn.BeamSection()
             data.stiffnessMatrix = np.diag(row.stiffness[i])
             data.inertia = np.diag(row.inertia[i])
             data.massPerLength = row.mass[i]
-            mbs.AddObject(
-                items.ObjectBeamGeometricallyExact(
-                    nodeNumbers=list(pair), length=row.length, sectionData=data
-                )
+            body = items.ObjectBeamGeometricallyExact(
+                nodeNumbers=list(pair), length=row.length, sectionData=data
             )
-        return Chain(nodes=nodes, elastic_energy=row.energy)
+            bodies.append(mbs.AddObject(body))
+        return Chain(nodes=nodes, bodies=tuple(bodies))
 
     def add_spin_forces(
         self, mbs: exudyn.MainSystem, chain: Chain, beam: AnyBlade, rotation: Rotation
@@ -137,12 +135,11 @@ class SpaceExact(Sheared, FrameNodes):
 
             return [(slope(1.0, 0.0), 1.0, 0.0), (slope(0.0, 1.0), 0.0, 1.0)]
 
-        size = row.reference.size
-        add_force(mbs, chain.nodes, size, force=force, derivatives=derivatives)
+        add_force(mbs, chain.nodes, force=force, derivatives=derivatives)
 
     def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
         """Strain along the normal of the sections, of each element."""
-        return _Row(self, beam, coordinates.shape[-2] - 1).strains(coordinates)[..., 0]
+        return _Row(self, beam, coordinates.shape[-2] - 1).stretch(coordinates)
 
     def energy_and_momentum(
         self, beam: AnyBlade, mass: Any, turning: Any, coordinates: FloatArray,
@@ -169,18 +166,8 @@ _STEPS = _STEP * np.stack((np.eye(14)[_TURNS], -np.eye(14)[_TURNS]))
 class _Row:
     """A row of elements: its unloaded line, sections, strains and inertia against rotation.
 
-    Attributes
-    ----------
-    length : float
-        Of an element.
-    reference : ndarray (nodes, 7)
-        Coordinates of the unloaded blade.
-    mass : ndarray (elements,)
-    stiffness : ndarray (elements, 6)
-        EA, GA, GA, GJ, EI out of the plane and EI in it.
-    inertia : ndarray (elements, 3)
-        ρI_p, ρI out of the plane and ρI in it [kg m].
-    add : Assembly
+    Stiffness (elements, 6) is EA, GA, GA, GJ, EI out of the plane and EI in it; inertia
+    (elements, 3) is ρI_p, ρI out of the plane and ρI in it [kg m].
     """
 
     def __init__(self, element: SpaceExact, blade: AnyBlade, elements: int) -> None:
@@ -188,7 +175,7 @@ class _Row:
         self.length, frame = mesh.length, element.line_frame(blade)
         place, sections = unit.unloaded(np.linspace(0.0, 1.0, elements + 1))
         r = blade.length * (unit.clamp + place) @ frame.T
-        p = _turns.Rotation.from_matrix(frame @ sections).as_quat()[:, [3, 0, 1, 2]]
+        p = spatial.transform.Rotation.from_matrix(frame @ sections).as_quat()[:, [3, 0, 1, 2]]
         self.reference = np.hstack((r, p))
         at = mesh.sections
         EA, EI, self.mass = at.axial_stiffness, at.bending_stiffness, at.mass_per_length
@@ -200,19 +187,14 @@ class _Row:
         means = weights @ np.diagonal(about).reshape(elements, -1, 3)
         self.inertia = blade.mass_per_length * blade.length**2 * means
         self.add = Assembly(elements, inner=1, per_node=7)
-        self._unloaded = self._screws(self.reference)
+        self._unloaded = self._pitches(self.reference)
 
-    def strains(self, coordinates: FloatArray) -> FloatArray:
-        """Return the strains (..., elements, 6): stretch, shears, torsion, curvatures."""
-        return np.asarray((self._screws(coordinates) - self._unloaded) / self.length)
+    def stretch(self, coordinates: FloatArray) -> FloatArray:
+        """Return the axial strain, (..., elements)."""
+        return (self._pitches(coordinates) - self._unloaded) / self.length
 
-    def energy(self, coordinates: FloatArray) -> FloatArray:
-        """Return the elastic energy (samples,) of coordinates (samples, nodes, 7)."""
-        squares = self.strains(coordinates) ** 2
-        return np.asarray(0.5 * self.length * np.sum(self.stiffness * squares, axis=(1, 2)))
-
-    def _screws(self, coordinates: FloatArray) -> FloatArray:
-        """Return the logarithms in SE(3) of the motions from node to node, (..., elements, 6)."""
+    def _pitches(self, coordinates: FloatArray) -> FloatArray:
+        """Return the first of the logarithms in SE(3) of the motions from node to node."""
         r, turn = coordinates[..., :3], directors(coordinates[..., 3:])
         to_local = np.swapaxes(turn[..., :-1, :, :], -1, -2)
         d = (to_local @ np.diff(r, axis=-2)[..., None])[..., 0]
@@ -221,7 +203,7 @@ class _Row:
         # u = d - ψ×d/2 + [1 - (ψ/2) cot(ψ/2)]/ψ² ψ×(ψ×d)
         across = np.cross(psi, d)
         bent = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / angle**2
-        return np.concatenate((d - 0.5 * across + bent * np.cross(psi, across), psi), axis=-1)
+        return np.asarray((d - 0.5 * across + bent * np.cross(psi, across))[..., 0])
 
     def turning(
         self, e: FloatArray, rates: FloatArray
@@ -234,7 +216,9 @@ class _Row:
         turn = directors(p)
         ends = (turn @ turning_rate(p, p_dot)[..., None])[..., 0]
         psi = _rotation_vector(np.swapaxes(turn[..., 0, :, :], -1, -2) @ turn[..., 1, :, :])
-        part = _turns.Rotation.from_rotvec((_INNER[:, None] * psi[..., None, :]).reshape(-1, 3))
+        part = spatial.transform.Rotation.from_rotvec(
+            (_INNER[:, None] * psi[..., None, :]).reshape(-1, 3)
+        )
         at = turn[..., :1, :, :] @ part.as_matrix().reshape(*psi.shape[:-1], 2, 3, 3)
         inertia = (at * self.inertia[:, None, None, :]) @ np.swapaxes(at, -1, -2)
         return turn, _VALUES @ ends, inertia
@@ -267,5 +251,5 @@ _VALUES = np.stack((1.0 - _INNER, _INNER), axis=1)
 
 def _rotation_vector(turn: FloatArray) -> FloatArray:
     """Return the rotation vectors (..., 3) of rotations (..., 3, 3)."""
-    flat = _turns.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
+    flat = spatial.transform.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
     return np.asarray(flat.reshape(turn.shape[:-1]))
