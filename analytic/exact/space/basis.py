@@ -184,11 +184,23 @@ class StrainFunctions:
 
     @cached_property
     def damping(self) -> FloatArray:
-        """The viscous resistance to q̇, (n, n)."""
+        """The viscous resistance to q̇, (n, n).
+
+        That of the moments about the center of tension, and of the tension; shear has none.
+        """
         bend, stretch, _ = self.blade.damping
-        bending, torsion, axial, shear = self.counts
-        root = np.sqrt(np.repeat([bend, stretch, 0.0], [bending + torsion, axial, shear]))
-        return np.asarray(root[:, None] * self.stiffness * root)
+        grid = self.blade.grid(2 * self.bending, 14)
+        soft = self._flexibility(grid.points)
+        forces = self._forces(grid.points)[:, :3] @ self._own[0]
+        # Strains under forces where the section does not bend: what is left are the moments'.
+        beside, bends = soft[:, :3, 3:], np.linalg.pinv(soft[:, 3:, 3:], hermitian=True)
+        along = soft[:, :3, :3] - beside @ bends @ np.swapaxes(beside, 1, 2)
+        apart = -bend * along
+        apart[:, 0, 0] += stretch * along[:, 0, 0]
+        apart *= grid.weights[:, None, None]
+        return np.asarray(
+            bend * self.stiffness + np.einsum("pik,pil->kl", forces, apart @ forces, optimize=True)
+        )
 
     def at(self, x: FloatArray) -> Strains:
         """Return the functions at material points `x`."""
