@@ -26,7 +26,13 @@ from .files.results import parts
 from .labels import GROWTH, dataset
 from .lazily import xr
 from .result_columns import COLUMNS, SWINGS, of_columns
-from .runs.attributes import beam_attributes, loads_attributes, motion_attributes, versions
+from .runs.attributes import (
+    beam_attributes,
+    loads_attributes,
+    motion_attributes,
+    theory_attributes,
+    versions,
+)
 from .runs.shape import shape_of
 
 _FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
@@ -137,8 +143,6 @@ def _(response: SpaceResponse) -> xr.Dataset:
 
 
 def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr.Dataset:
-    theory = response.theory
-    sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
     motion = rippled(response.spin_up, response.loads)
     columns = {
         "q": (response.q, "tip displacement q, Eq. 16 [m]"),
@@ -153,7 +157,7 @@ def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr
         {
             **_inputs(response),
             **loads_attributes(response.loads),
-            **{name: value for name, value in sections.items() if value},
+            **theory_attributes(response.theory),
             "duration": float(response.time[-1]),
             "samples": response.time.size,
             "error": response.error,
@@ -262,7 +266,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
         response.beam, response.load, None if weight else float(response.omega[0])
     )
     known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
-    return dataset(variables, {}, {**inputs, **known})
+    return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **known})
 
 
 @_described.register

@@ -268,6 +268,16 @@ def test_kinks_turn_what_lies_beyond_them_about_axes_of_their_own_section():
     assert state.tip == pytest.approx(known, abs=1e-12)
 
 
+def test_kinks_at_one_place_follow_each_other():
+    """As kinks that are close together."""
+    straight = BEAM.with_section_out_of_plane(R, G)
+    at_once, close = (
+        steady_state(straight.with_kink(0.5, 0.2).with_kink(there, 0.1, 0.1), 1.0).tip
+        for there in (0.5, 0.5 + 1e-9)
+    )
+    assert at_once == pytest.approx(close, abs=1e-8)
+
+
 # x, twist [degrees], m, EI2, EI3, GJ, EA, j2, j3: stations of a blade of 61.5 m, among many more.
 LARGE = np.array([
     [0.0, 13.308, 678.9, 1.811e10, 1.811e10, 5.564e9, 9.729e9, 972.9, 973.0],

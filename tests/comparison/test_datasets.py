@@ -143,3 +143,23 @@ def test_columns_are_the_result_s():
     row = frames["sine"].query("orbit == 1 and harmonic == 3")
     assert row["sine"].item() == found.harmonics[1, 2]
     assert frames_of(oscillating())["amplitude"]["frequency"].item() == pytest.approx(3.7)
+
+
+def test_a_file_says_of_which_theory_and_load_an_answer_is(tmp_path):
+    """Also where the theory's shear is the truth value that a table of stations takes."""
+    table = Blade.from_stations(
+        [0.0, 1.0], [[1e4, 3e3, 3e3, 0.08, 0.06, 1.0]] * 2, [[1.0, 1e-3, 1e-3, 1e-3]] * 2
+    )
+    sheared = Theory(shear=True, trapeze=False)
+    lifted = {"force": (0.0, 0.0, 0.01), "gravity": 0.02}
+    spun_up = analytic.spin_up_response(table, MOTION, TIMES, tolerance=1e-2, theory=sheared)
+    for name, found, told in (
+        ("spin-up", spun_up, {"shear": 1, "trapeze": 0}),
+        ("steady", analytic.steady_state(TWISTED, 1.0, **lifted), lifted),
+        ("modes", analytic.linear_modes(table, 1.0, theory=sheared), {"shear": 1, "trapeze": 0}),
+    ):
+        save(dataset_of(found), tmp_path / f"{name}.nc")
+        attrs = load(tmp_path / f"{name}.nc").attrs
+        for key, value in told.items():
+            assert attrs[key] == pytest.approx(value), name
+        assert "extension" not in attrs

@@ -18,7 +18,7 @@ from ...profiles import evaluated, slope_of
 from ...quadrature import Grid
 from ...shape_functions import shape_functions
 from ...theory import Theory
-from .unit import SpaceUnit
+from .unit import SpaceUnit, trapeze_of
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
 _FEW = 4  # on each of many short cells, which turn less
@@ -208,17 +208,12 @@ class StrainFunctions:
         # In memory the places come last, as in all fields.
         found = (soft @ (self._forces(x) @ self._own[0])).transpose(1, 2, 0).copy()
         strains = np.swapaxes(found, 1, 2)
-        # Bending stiffness about the center of tension, and compliance to axial force there.
-        bends = np.linalg.inv(soft[:, 4:, 4:])
-        beside = soft[:, 0, 4:]
-        along = soft[:, 0, 0] - np.einsum("pi,pij,pj->p", beside, bends, beside)
-        k2 = np.trace(bends, axis1=1, axis2=2) * along
         return Strains(
             gamma=strains[:3],
             K=strains[3:],
             initial=self.blade.bent(x),
             twist=slope_of(self.blade.line.twist, x),
-            trapeze=k2 if self.theory.trapeze else np.zeros_like(x),
+            trapeze=trapeze_of(soft) if self.theory.trapeze else np.zeros_like(x),
         )
 
     @cached_property
