@@ -201,10 +201,16 @@ def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
 
 
 def _root_loads(response: SpinUpResponse) -> dict[str, tuple[Any, str]]:
-    """Return tension, shear forces and moments with their labels, those of the plane or all."""
+    """Return tension, shear forces and moments with their labels, those of the plane or all.
+
+    In space by the clamp's axes, as of a run, not by those of its section, which may be set.
+    """
     found = response.section_loads([0.0])
-    moments = np.atleast_2d(found.moment[:, 0].T)
-    forces = zip("xyz", found.force[:, 0].T, strict=False)
+    force, moment = found.force[:, 0], found.moment[:, 0]
+    if moment.ndim > 1:
+        force, moment = ((found.section[:, 0] @ one[..., None])[..., 0] for one in (force, moment))
+    moments = np.atleast_2d(moment.T)
+    forces = zip("xyz", force.T, strict=False)
     about = zip("xyz"[-len(moments) :], moments, strict=True)
     return {
         **{f"root_force_{k}": (one, f"{_FORCES[k]} at the root [N]") for k, one in forces},

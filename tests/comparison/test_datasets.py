@@ -163,3 +163,12 @@ def test_a_file_says_of_which_theory_and_load_an_answer_is(tmp_path):
         for key, value in told.items():
             assert attrs[key] == pytest.approx(value), name
         assert "extension" not in attrs
+
+
+def test_root_loads_are_in_the_axes_of_the_clamp_as_a_run_s():
+    """However a round section is set, which changes nothing else."""
+    round_blade = TWISTED.with_twist(0.0).with_section_out_of_plane(1.0, 0.8).with_precone(0.1)
+    level, turned = (dataset_of(spun(round_blade.with_setting_angle(psi))) for psi in (0.0, 0.7))
+    for name in ("root_force_y", "root_force_z", "root_moment_y", "root_moment_z"):
+        largest = abs(level[name]).max().item()
+        np.testing.assert_allclose(turned[name], level[name], atol=1e-9 * largest)
