@@ -110,8 +110,9 @@ class StationSection(Section):
             _require_stiffness(at, one)
         for at, one in zip(x, M, strict=True):
             _require_mass(at, one)
+        bending = S[:, 5, 5] - S[:, 0, 5] ** 2 / S[:, 0, 0]  # about the center of tension
         told = zip(("axial_stiffness", "bending_stiffness", "mass_per_length"),
-                   (S[:, 0, 0], S[:, 5, 5], M[:, 0, 0]), strict=True)  # fmt: skip
+                   (S[:, 0, 0], bending, M[:, 0, 0]), strict=True)  # fmt: skip
         self._keep(
             x=tuple(x.tolist()), stiffness=nested(S), mass=nested(M),
             **{name: tuple(zip(x.tolist(), values.tolist(), strict=True)) for name, values in told},

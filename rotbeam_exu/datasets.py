@@ -26,7 +26,13 @@ from .files.results import parts
 from .labels import GROWTH, dataset
 from .lazily import xr
 from .result_columns import COLUMNS, SWINGS, of_columns
-from .runs.attributes import beam_attributes, loads_attributes, motion_attributes, versions
+from .runs.attributes import (
+    beam_attributes,
+    loads_attributes,
+    motion_attributes,
+    theory_attributes,
+    versions,
+)
 from .runs.shape import shape_of
 
 _FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
@@ -137,8 +143,6 @@ def _(response: SpaceResponse) -> xr.Dataset:
 
 
 def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr.Dataset:
-    theory = response.theory
-    sections = {"rotary_inertia": int(theory.rotary_inertia), "shear": theory.shear}
     motion = rippled(response.spin_up, response.loads)
     columns = {
         "q": (response.q, "tip displacement q, Eq. 16 [m]"),
@@ -153,7 +157,7 @@ def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr
         {
             **_inputs(response),
             **loads_attributes(response.loads),
-            **{name: value for name, value in sections.items() if value},
+            **theory_attributes(response.theory),
             "duration": float(response.time[-1]),
             "samples": response.time.size,
             "error": response.error,
@@ -197,10 +201,16 @@ def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
 
 
 def _root_loads(response: SpinUpResponse) -> dict[str, tuple[Any, str]]:
-    """Return tension, shear forces and moments with their labels, those of the plane or all."""
+    """Return tension, shear forces and moments with their labels, those of the plane or all.
+
+    In space by the clamp's axes, as of a run, not by those of its section, which may be set.
+    """
     found = response.section_loads([0.0])
-    moments = np.atleast_2d(found.moment[:, 0].T)
-    forces = zip("xyz", found.force[:, 0].T, strict=False)
+    force, moment = found.force[:, 0], found.moment[:, 0]
+    if moment.ndim > 1:
+        force, moment = ((found.section[:, 0] @ one[..., None])[..., 0] for one in (force, moment))
+    moments = np.atleast_2d(moment.T)
+    forces = zip("xyz", force.T, strict=False)
     about = zip("xyz"[-len(moments) :], moments, strict=True)
     return {
         **{f"root_force_{k}": (one, f"{_FORCES[k]} at the root [N]") for k, one in forces},
@@ -262,7 +272,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
         response.beam, response.load, None if weight else float(response.omega[0])
     )
     known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
-    return dataset(variables, {}, {**inputs, **known})
+    return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **known})
 
 
 @_described.register

@@ -23,10 +23,11 @@ from analytic.exact.space.modes import SpaceModes
 from analytic.exact.space.steady_state import SteadyState
 from analytic.reduced.tables import PaperTable
 from analytic.spin_up.quiet import QuietRamps
+from analytic.theory import Theory
 
 from .labels import GROWTH, OMEGA, ORBIT, dataset
 from .lazily import xr
-from .runs.attributes import beam_attributes
+from .runs.attributes import beam_attributes, theory_attributes
 from .runs.oscillation import OSCILLATION, SteadyOscillation
 
 Dims = str | tuple[str, ...]
@@ -42,6 +43,8 @@ def of_columns(
     `beam` is the attribute that holds its beam, if any; `known` are those about all of it.
     """
     about = beam_attributes(getattr(result, beam)) if beam else {}
+    if isinstance(theory := getattr(result, "theory", None), Theory):
+        about |= theory_attributes(theory)
     data = dataset(
         {name: (dims, of(result), label) for name, (dims, label, of) in columns.items()},
         {},
@@ -126,7 +129,7 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
             f"tip_{axis}": _part("tip", k, (), f"tip from the clamp, {axis} of its frame [m]")
             for k, axis in enumerate("xyz")
         } | _columns((), twist="turn of the tip's section by the load [rad]"),
-        "blade", ("omega", "error"),
+        "blade", ("omega", "force", "moment", "gravity", "error"),
     ),
     QuietRamps: (
         {"ramp_time": _own("ramp_times", "ramp", "quiet ramp time T [s]")} | _columns(

@@ -13,6 +13,7 @@ from cyclopts import Parameter
 import analytic
 from analytic import AnyBlade
 from analytic.exact.linear.modes import Plane
+from analytic.exact.space.steady import lives_in_space
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
@@ -94,7 +95,7 @@ def campbell(
 def _families(beam: AnyBlade) -> list[Plane]:
     """Return the families of modes that the beam's section determines."""
     known = beam.section.out_of_plane
-    if known is None or beam.unit.setting != 1.0:
+    if known is None or beam.unit.setting != 1.0 or lives_in_space(beam):
         return ["lag"]
     twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)
     inert = beam.section.rotary_inertia != 0.0

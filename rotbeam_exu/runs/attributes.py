@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import platform
 from collections.abc import Mapping, Sequence
-from dataclasses import fields
+from dataclasses import asdict, fields
 from importlib import metadata
 from typing import Any
 
@@ -13,6 +13,7 @@ from analytic import AnyBlade, Beam, Blade, SpinUp, SteadyRotation
 from analytic.description import describe, from_description
 from analytic.loads import Load
 from analytic.motion import Motion
+from analytic.theory import BERNOULLI_EULER, Theory
 
 from .. import __version__
 
@@ -39,6 +40,19 @@ def loads_of(attrs: Mapping[Any, Any]) -> tuple[Load, ...]:
 def loads_attributes(loads: Sequence[Load]) -> dict[str, Any]:
     """Return the attribute by which a run says its loads, none without; `loads_of` reads it."""
     return {"loads": json.dumps(list(map(describe, loads)))} if loads else {}
+
+
+def theory_attributes(theory: Theory) -> dict[str, Any]:
+    """Return the attributes by which an answer says where its theory is not Bernoulli and Euler's.
+
+    Numbers, for files hold no truth values: a shear of 1 is that of the stations.
+    """
+    told = asdict(theory).items()
+    return {
+        name: value if isinstance(value, float) else int(value)
+        for name, value in told
+        if value != getattr(BERNOULLI_EULER, name)
+    }
 
 
 def motion_of(attrs: Mapping[Any, Any]) -> Motion:

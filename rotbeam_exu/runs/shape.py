@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from analytic.arrays import FloatArray, evaluated
+from analytic.arrays import FloatArray, evaluated, slope_of
 from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.exact.beam.state import SectionLoads
-from analytic.exact.space.unit import space_unit
+from analytic.exact.space.unit import space_unit, trapeze_of
 from analytic.input_checks import not_negative
 from analytic.theory import BERNOULLI_EULER
 
@@ -109,4 +109,15 @@ def _strains(found: SectionLoads, force: FloatArray, moment: FloatArray) -> Floa
         soft[:, 5, 5] = 1.0 / evaluated(blade.unit.bending, at)
         soft[:, 4, 4] = soft[:, 5, 5] / out.bending_ratio if out else 0.0
     loads = np.concatenate((force * L**2 / EI, moment * L / EI), axis=-1)
-    return np.asarray((soft @ loads[..., None])[..., 0] / np.repeat([1.0, L], 3))
+    shortening: Any = 0.0
+    if found.trapeze and section.knows_space:
+        # N acts on ε + ½k²(κ1² - κ01²): k²Nκ1 of the torque is its own.
+        twist, k2 = slope_of(blade.blade.line.in_units(L).twist, at), trapeze_of(soft)
+        pull = k2 * loads[..., 0]
+        free = np.sum(soft[:, 3] * loads, axis=-1)
+        change = (free - soft[:, 3, 3] * pull * twist) / (1.0 + soft[:, 3, 3] * pull)
+        loads[..., 3] -= pull * (twist + change)
+        shortening = 0.5 * k2 * change * (2.0 * twist + change)
+    strains = (soft @ loads[..., None])[..., 0]
+    strains[..., 0] -= shortening
+    return np.asarray(strains / np.repeat([1.0, L], 3))

@@ -23,6 +23,7 @@ from analytic.exact.beam.steady import SteadyBeam, blade_continuum
 from analytic.exact.driven.transient import pushes, unit_load
 from analytic.quadrature import gauss_points
 from analytic.theory import BERNOULLI_EULER
+from rotbeam_exu.runs.shape import shape_of
 
 RIGID = Theory(extension=False)
 SECTION = Section(axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0)
@@ -227,3 +228,19 @@ def test_a_blade_set_in_its_plane_and_the_same_in_space_stand_alike():
     # As the tip is seen from above, and as far out of that plane as the setting angle has it.
     _, lag, flap = one.place[:, -1].T
     np.testing.assert_allclose(flap, math.tan(0.7) * lag, rtol=1e-12)
+
+
+@pytest.mark.parametrize("trapeze", [False, True])
+def test_the_strains_of_a_section_are_those_by_which_it_stands(trapeze):
+    """With the trapeze effect tension untwists a section, which carries no torque for that."""
+    blade = STRAIGHT.with_twist(0.8).with_precone(0.1).with_offsets(tension=(0.01, 0.005))
+    theory = Theory(trapeze=trapeze, rotary_inertia=True)
+    h = 1e-4
+    loads = steady_state(blade, 4.0, theory=theory).section_loads([0.3 - h, 0.3, 0.3 + h])
+    before, here, after = loads.section
+    turn = here.T @ (after - before) / (2.0 * h)
+    moved = here.T @ (loads.place[2] - loads.place[0]) / (2.0 * h)
+    found = shape_of(loads).isel(station=1)
+    elastic = np.array([turn[2, 1] - 0.8, turn[0, 2], turn[1, 0]])
+    np.testing.assert_allclose(found["curvature"], elastic, rtol=1e-6)
+    assert found["strain"].item() == pytest.approx(moved[0] - 1.0, rel=1e-4)

@@ -9,8 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from analytic import (
     Blade,
+    Damping,
     Section,
     Theory,
+    damping_ratios,
     linear_modes,
     periodic_orbits,
     steady_state,
@@ -78,11 +80,24 @@ def test_the_line_of_a_coupled_blade_does_not_matter():
     S[:, 3, 4] = S[:, 4, 3] = 0.02
     S[:, 1, 5] = S[:, 5, 1] = 5.0
     M = stations(**CENTERS).section.mass
-    found = []
+    found, damped = [], []
     for c2 in (0.0, -0.04):
         blade = Blade.from_stations(X, S, M, axis=(c2, 0.0)).with_setting_angle(0.3)
         found.append(linear_modes(blade, 0.0, 5, theory=SHEARED).frequencies)
+        viscous = blade.with_damping(Damping(bending=0.01, axial=0.002))
+        damped.append(damping_ratios(viscous, 0.0, 5, theory=SHEARED))
     assert found[0] == pytest.approx(found[1], rel=1e-9)  # polynomials of two lines, refined
+    assert damped[0] == pytest.approx(damped[1], rel=1e-9)
+
+
+def test_damping_of_bending_is_about_the_center_of_tension():
+    """Moments of η_b damp by η_b ω/2, wherever the line is; a ratio asked for is of bending."""
+    for c2 in (0.0, 0.05):
+        blade = Blade.from_stations(X, STIFFNESS, MASS, tension=(c2, 0.0))
+        blade = blade.with_damping(Damping.from_ratio(blade, 1, 0.01))
+        ratios, frequencies = damping_ratios(blade, 0.0, 4), linear_modes(blade, 0.0, 4).frequencies
+        assert ratios == pytest.approx(0.5 * blade.damping.bending * frequencies, rel=1e-5)
+        assert ratios[1] == pytest.approx(0.01, rel=0.02)  # lag, which axial inertia slows
 
 
 def test_shear_centers_off_the_line_twist_a_blade_under_a_dead_force():
@@ -251,6 +266,16 @@ def test_kinks_turn_what_lies_beyond_them_about_axes_of_their_own_section():
         turn = turn @ Rotation.from_rotvec(section.apply(angles)).as_matrix()
         known = known + length * turn[:, 0]
     assert state.tip == pytest.approx(known, abs=1e-12)
+
+
+def test_kinks_at_one_place_follow_each_other():
+    """As kinks that are close together."""
+    straight = BEAM.with_section_out_of_plane(R, G)
+    at_once, close = (
+        steady_state(straight.with_kink(0.5, 0.2).with_kink(there, 0.1, 0.1), 1.0).tip
+        for there in (0.5, 0.5 + 1e-9)
+    )
+    assert at_once == pytest.approx(close, abs=1e-8)
 
 
 # x, twist [degrees], m, EI2, EI3, GJ, EA, j2, j3: stations of a blade of 61.5 m, among many more.

@@ -56,3 +56,16 @@ def test_what_the_file_does_not_tell_is_asked_for(call, tmp_path):
     code, _, error = call("stability", *SPEED, "--config", NREL, "--out", tmp_path)
     assert code != 0
     assert "out_of_plane" in error or "--section" in error
+
+
+def test_a_twisted_blade_that_is_not_set_has_a_campbell_diagram(call, tmp_path):
+    """Its flap, lag and torsion go together, so no family is asked for."""
+    file = tmp_path / "twisted.toml"
+    file.write_text(
+        "[blade]\nlength = 8.0\nline = { twist = [0.0, 0.5] }\n[blade.section]\n"
+        "axial_stiffness = 5e6\nbending_stiffness = 566.0\nmass_per_length = 0.2\n"
+        "out_of_plane = { bending_ratio = 0.1, torsion_ratio = 0.09 }\n"
+    )
+    code, out, error = call("campbell", "--points", "2", "--orders", "1", "--config", file)
+    assert code == 0, error
+    assert "mode 3" in out

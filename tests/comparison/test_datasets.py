@@ -143,3 +143,32 @@ def test_columns_are_the_result_s():
     row = frames["sine"].query("orbit == 1 and harmonic == 3")
     assert row["sine"].item() == found.harmonics[1, 2]
     assert frames_of(oscillating())["amplitude"]["frequency"].item() == pytest.approx(3.7)
+
+
+def test_a_file_says_of_which_theory_and_load_an_answer_is(tmp_path):
+    """Also where the theory's shear is the truth value that a table of stations takes."""
+    table = Blade.from_stations(
+        [0.0, 1.0], [[1e4, 3e3, 3e3, 0.08, 0.06, 1.0]] * 2, [[1.0, 1e-3, 1e-3, 1e-3]] * 2
+    )
+    sheared = Theory(shear=True, trapeze=False)
+    lifted = {"force": (0.0, 0.0, 0.01), "gravity": 0.02}
+    spun_up = analytic.spin_up_response(table, MOTION, TIMES, tolerance=1e-2, theory=sheared)
+    for name, found, told in (
+        ("spin-up", spun_up, {"shear": 1, "trapeze": 0}),
+        ("steady", analytic.steady_state(TWISTED, 1.0, **lifted), lifted),
+        ("modes", analytic.linear_modes(table, 1.0, theory=sheared), {"shear": 1, "trapeze": 0}),
+    ):
+        save(dataset_of(found), tmp_path / f"{name}.nc")
+        attrs = load(tmp_path / f"{name}.nc").attrs
+        for key, value in told.items():
+            assert attrs[key] == pytest.approx(value), name
+        assert "extension" not in attrs
+
+
+def test_root_loads_are_in_the_axes_of_the_clamp_as_a_run_s():
+    """However a round section is set, which changes nothing else."""
+    round_blade = TWISTED.with_twist(0.0).with_section_out_of_plane(1.0, 0.8).with_precone(0.1)
+    level, turned = (dataset_of(spun(round_blade.with_setting_angle(psi))) for psi in (0.0, 0.7))
+    for name in ("root_force_y", "root_force_z", "root_moment_y", "root_moment_z"):
+        largest = abs(level[name]).max().item()
+        np.testing.assert_allclose(turned[name], level[name], atol=1e-9 * largest)

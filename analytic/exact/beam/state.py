@@ -87,6 +87,8 @@ class SectionLoads:
         Bending moment M about axis 3, EI times the curvature [N m]. In space the torque, and the
         moments about axes 2 (flap, of a blade set at zero) and 3 (lag). A steady state has no
         samples.
+    trapeze : bool
+        Whether twist shortens the axis, as `Theory` has it, so that tension twists a section too.
 
     Examples
     --------
@@ -103,6 +105,7 @@ class SectionLoads:
     section: FloatArray = field(repr=False)
     force: FloatArray = field(repr=False)
     moment: FloatArray = field(repr=False)
+    trapeze: bool = False
 
     @property
     def tension(self) -> FloatArray:
@@ -115,6 +118,7 @@ def in_newtons(
     x: FloatArray,
     standing: tuple[FloatArray, FloatArray],
     loads: tuple[FloatArray, FloatArray],
+    trapeze: bool,
 ) -> SectionLoads:
     """Return places, sections and loads without dimensions at `x` over L as a value."""
     unit = beam.bending_stiffness / beam.length
@@ -126,6 +130,7 @@ def in_newtons(
         section=section,
         force=unit / beam.length * force,
         moment=unit * moment,
+        trapeze=trapeze,
     )
 
 

@@ -88,7 +88,8 @@ class SpinUpResponse:
             for few in few_at_once(self.time.size)
         ]
         place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
-        return in_newtons(self.beam, at, (place, section), (force, moment))
+        standing, loads = (place, section), (force, moment)
+        return in_newtons(self.beam, at, standing, loads, self.theory.trapeze)
 
     @staticmethod
     def in_units(

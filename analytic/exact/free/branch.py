@@ -104,7 +104,13 @@ class OrbitSet:
         phases = finite_values("phase", phase, "rad")
         state = (*orbit.coordinates(phases), *orbit.drive(phases))
         standing = orbit.system.model.standing(state[0], at, self.beam.setting_angle)
-        return in_newtons(self.beam, at, standing, orbit.system.section_loads(at, *state))
+        loads = orbit.system.section_loads(at, *state)
+        return in_newtons(self.beam, at, standing, loads, self._trapeze)
+
+    @property
+    def _trapeze(self) -> bool:
+        """Whether twist shortens the axis; none does in the plane."""
+        return False
 
     @cached_property
     def _stability(self) -> tuple[Multipliers, ...]:
@@ -134,6 +140,10 @@ class SpaceOrbitSet(OrbitSet):
 
     `stable` covers disturbances in all directions.
     """
+
+    @property
+    def _trapeze(self) -> bool:
+        return bool(self.nondimensional[0].system.model.functions.theory.trapeze)
 
     def tip(self, i: int, phase: ArrayLike) -> FloatArray:
         """Return the tip's places from the clamp [m] at the phases [rad], (phases, 3).

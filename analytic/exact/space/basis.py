@@ -17,7 +17,7 @@ from ...arrays import FloatArray, evaluated, slope_of
 from ...quadrature import Grid
 from ...shape_functions import shape_functions
 from ...theory import Theory
-from .unit import SpaceUnit
+from .unit import SpaceUnit, trapeze_of
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
 _FEW = 4  # on each of many short cells, which turn less
@@ -183,11 +183,23 @@ class StrainFunctions:
 
     @cached_property
     def damping(self) -> FloatArray:
-        """The viscous resistance to q̇, (n, n)."""
+        """The viscous resistance to q̇, (n, n).
+
+        That of the moments about the center of tension, and of the tension; shear has none.
+        """
         bend, stretch, _ = self.blade.damping
-        bending, torsion, axial, shear = self.counts
-        root = np.sqrt(np.repeat([bend, stretch, 0.0], [bending + torsion, axial, shear]))
-        return np.asarray(root[:, None] * self.stiffness * root)
+        grid = self.blade.grid(2 * self.bending, 14)
+        soft = self._flexibility(grid.points)
+        forces = self._forces(grid.points)[:, :3] @ self._own[0]
+        # Strains under forces where the section does not bend: what is left are the moments'.
+        beside, bends = soft[:, :3, 3:], np.linalg.pinv(soft[:, 3:, 3:], hermitian=True)
+        along = soft[:, :3, :3] - beside @ bends @ np.swapaxes(beside, 1, 2)
+        apart = -bend * along
+        apart[:, 0, 0] += stretch * along[:, 0, 0]
+        apart *= grid.weights[:, None, None]
+        return np.asarray(
+            bend * self.stiffness + np.einsum("pik,pil->kl", forces, apart @ forces, optimize=True)
+        )
 
     def at(self, x: FloatArray) -> Strains:
         """Return the functions at material points `x`."""
@@ -195,17 +207,12 @@ class StrainFunctions:
         # In memory the places come last, as in all fields.
         found = (soft @ (self._forces(x) @ self._own[0])).transpose(1, 2, 0).copy()
         strains = np.swapaxes(found, 1, 2)
-        # Bending stiffness about the center of tension, and compliance to axial force there.
-        bends = np.linalg.inv(soft[:, 4:, 4:])
-        beside = soft[:, 0, 4:]
-        along = soft[:, 0, 0] - np.einsum("pi,pij,pj->p", beside, bends, beside)
-        k2 = np.trace(bends, axis1=1, axis2=2) * along
         return Strains(
             gamma=strains[:3],
             K=strains[3:],
             initial=self.blade.bent(x),
             twist=slope_of(self.blade.line.twist, x),
-            trapeze=k2 if self.theory.trapeze else np.zeros_like(x),
+            trapeze=trapeze_of(soft) if self.theory.trapeze else np.zeros_like(x),
         )
 
     @cached_property

@@ -58,7 +58,8 @@ class SteadyState:
         still = np.zeros_like(state)
         (place,), (section,) = self._steady.model.standing(state, at, self.blade.setting_angle)
         (force,), (moment,) = self._steady.section_loads(at, state, still, still)
-        return in_newtons(self.blade, at, (place, section), (force, moment))
+        standing, loads = (place, section), (force, moment)
+        return in_newtons(self.blade, at, standing, loads, self.theory.trapeze)
 
 
 def _vector(name: str, value: ArrayLike, unit: str) -> tuple[float, ...]:

@@ -230,6 +230,16 @@ class StationUnit(SpaceUnit):
         return super().mirrored and not self.section.couples((1, 3, 5), (0, 2, 4))
 
 
+def trapeze_of(soft: FloatArray) -> FloatArray:
+    """Return k² = (EI2 + EI3)/EA of the trapeze effect, (places,), from strains over forces.
+
+    Bending stiffness about the center of tension, and compliance to axial force there.
+    """
+    bends, beside = np.linalg.inv(soft[:, 4:, 4:]), soft[:, 0, 4:]
+    along = soft[:, 0, 0] - np.einsum("pi,pij,pj->p", beside, bends, beside)
+    return np.asarray(np.trace(bends, axis1=1, axis2=2) * along)
+
+
 def space_unit(beam: AnyBlade) -> SpaceUnit:
     """Return a blade in space without dimensions; its section out of the plane is known."""
     blade = beam.blade

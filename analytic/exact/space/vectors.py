@@ -76,14 +76,18 @@ class Frames:
     running : Running
         To the points of the grid first, and to the places; its stretches end at the kinks.
     kinks : list
-        Material points, and rotation vectors (3,) by which the frame jumps there.
+        Material points, and rotation vectors (3,) by which the frame jumps there, one by one.
     """
 
     def __init__(self, running: Running, kinks: Sequence[tuple[float, FloatArray]] = ()) -> None:
         parts = running.stretches
         self._count, self._stretches = running.count, len(parts)
         ends = np.cumsum([part.weights.sum() for part in parts])
-        self._kinks = {int(np.argmin(np.abs(ends - x))): _quaternion(vector) for x, vector in kinks}
+        self._kinks: dict[int, FloatArray] = {}
+        for x, vector in kinks:
+            place, turn = int(np.argmin(np.abs(ends - x))), _quaternion(vector)
+            before = self._kinks.get(place)
+            self._kinks[place] = turn if before is None else product(before, turn)
         # Stretches with as many points and places go together, their ends behind their places.
         self._together = []
         for shape in {part.onto.shape for part in parts}:

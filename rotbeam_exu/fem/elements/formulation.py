@@ -192,9 +192,15 @@ class Formulation(Described, abstract=True):
         """Refuse a blade whose line or section the element does not model."""
         require_blade(blade)
         if not blade.is_planar:
+            whole = blade.blade
+            line, table = whole.line, whole.section.at_stations
+            beyond = (*line.kinks, *line.mass_offset, *line.tension_offset, *whole.point_masses)
+            remedy = (
+                "analytic.spin_up_response" if table or any(beyond) else "element='space_exact'"
+            )
             raise ValueError(
-                f"element {self.name!r} is for a straight blade in its plane, and this one has a "
-                "twist, precone, prebend, sweep or offset: take element='space_exact'"
+                f"element {self.name!r} is for a straight blade in its plane, and this one is from "
+                "stations or has a twist, precone, prebend, sweep, kink or offset: take " + remedy
             )
 
     def setting(self, blade: AnyBlade) -> float:

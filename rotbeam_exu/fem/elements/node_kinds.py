@@ -196,7 +196,8 @@ def require_bare(element: Formulation, blade: AnyBlade) -> None:
     if blade.unit.masses:
         raise ValueError(
             f"element {element.name!r} carries no point masses, and this blade has "
-            f"{blade.unit.differences}: take an element of the plane"
+            f"{blade.unit.differences}: take "
+            f"{'an element of the plane, or ' if blade.is_planar else ''}analytic.spin_up_response"
         )
 
 
