@@ -109,8 +109,8 @@ def test_it_is_the_tangent_of_the_blade_in_space(section, a, theory, damping, di
 
 
 def test_about_a_damped_response_it_is_the_tangent_of_the_blade_in_space():
-    """With the viscous moment of the response, a third of its elastic one; a = 0.066."""
-    blade, load = BEAM.with_section_out_of_plane(**asdict(STRIP)), SpeedRipple(amplitude=0.05)
+    """With the viscous moment of the response, a third of its elastic one; a = 0.26."""
+    blade, load = BEAM.with_section_out_of_plane(**asdict(STRIP)), SpeedRipple(amplitude=0.2)
     blade = blade.with_damping(Damping(bending=0.1))
     orbit = forced_response(blade, 2.0, load, [3.0, 3.1]).nondimensional[0]
     known = grown(blade, orbit, 16, 48, Theory())
@@ -123,6 +123,18 @@ def test_about_a_damped_response_it_is_the_tangent_of_the_blade_in_space():
     found = np.log(np.abs(np.linalg.eigvals(matrix)).max()) + size
     # As above: the inertia of the sections against flap.
     assert found == pytest.approx(known.exponent, rel=1e-4)
+
+
+@pytest.mark.parametrize("section", [STRIP, ROUND])
+def test_what_the_viscosity_adds_to_the_stiffness_is_half_the_rate_of_the_damping(section):
+    """Of strains s(q), C = ∫η sᵀs and air, and ∫η sᵀṡ with its transpose is Ċ."""
+    blade = unit_beam(1e-2).with_section_out_of_plane(**asdict(section))
+    space = Space(blade.with_damping(Damping(bending=0.1, external=0.3)), 6)
+    planar, h = SteadyBeam(blade_continuum(space.blade, BERNOULLI_EULER, 8, 6), 2.0), 1e-5
+    q, rate = 0.3 * np.random.default_rng(5).normal(size=(2, 1, planar.size))
+    more = space.resistance(planar, q, rate)[1]
+    after, before = (space.resistance(planar, q + step * rate, rate)[0] for step in (h, -h))
+    assert more + np.swapaxes(more, 1, 2) == pytest.approx((after - before) / (2.0 * h), abs=1e-6)
 
 
 def test_damping_by_mass_decays_as_the_undamped_motion_of_less_stiffness():
