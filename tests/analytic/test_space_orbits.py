@@ -181,10 +181,8 @@ def test_a_state_with_others_beside_it_is_refused(verb):
     ("omega", "multiplier"),
     [(1.36171, None), (1.36211, -1.0193), (2.04909, -1.0188), (2.04949, None)],
 )
-def test_a_blade_that_neither_twists_nor_stretches_has_stable_orbits_up_to_known_edges(
-    omega, multiplier
-):
-    """All its coordinates are odd. The edges of the doubling of lag's period are of another code."""
+def test_orbits_of_a_blade_that_neither_twists_nor_stretches(omega, multiplier):
+    """All coordinates are odd. Another code gives the edges where the period of lag doubles."""
     thin = unit_beam(1e-4).with_section_out_of_plane(0.01, math.inf).with_twist(1e-7)
     theory = Theory(extension=False, trapeze=False)
     found = periodic_orbits(thin, omega, [0.2], mode=2, gauge="lag", theory=theory)
