@@ -91,6 +91,6 @@ def unpacked(unknowns: FloatArray, parts: Parts, shape: tuple[int, int]) -> Floa
     coefficients, start = np.zeros(shape), 0
     for at, rows in parts:
         end = start + (rows.stop - rows.start) * at.size
-        coefficients[rows, at] = unknowns[start:end].reshape(-1, at.size)
+        coefficients[rows, at] = unknowns[start:end].reshape(rows.stop - rows.start, at.size)
         start = end
     return coefficients

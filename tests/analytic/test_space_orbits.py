@@ -175,3 +175,17 @@ def test_a_state_with_others_beside_it_is_refused(verb):
     assert steady_state(blade, 0.6).tip[1] == pytest.approx(0.0, abs=1e-12)
     with pytest.raises(ValueError, match="ends or becomes unstable at w_bar = 0.64.*rotate slower"):
         verb(blade)
+
+
+@pytest.mark.parametrize(
+    ("omega", "multiplier"),
+    [(1.36171, None), (1.36211, -1.0193), (2.04909, -1.0188), (2.04949, None)],
+)
+def test_orbits_of_a_blade_that_neither_twists_nor_stretches(omega, multiplier):
+    """All coordinates are odd. Another code gives the edges where the period of lag doubles."""
+    thin = unit_beam(1e-4).with_section_out_of_plane(0.01, math.inf).with_twist(1e-7)
+    theory = Theory(extension=False, trapeze=False)
+    found = periodic_orbits(thin, omega, [0.2], mode=2, gauge="lag", theory=theory)
+    assert found.stable[0] == (multiplier is None)
+    if multiplier is not None:  # near the edge it goes with the root of the distance
+        assert found.multipliers[0].real.min() == pytest.approx(multiplier, abs=3e-3)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray, few_at_once
-from ...beam import AnyBlade, require_planar, warn_if_rpm
+from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import finite_number, points_of_beam, positive, times_from_rest
 from ...loads import Load, loads_in_time, rippled
 from ...motion import SpeedChange, require_ramp
@@ -216,8 +216,12 @@ def spin_up_response(
     along = points_of_beam("points", points, beam.length)
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
     kick, bent = finite_number("kick", kick, "m/s"), require_bent("bent", bent)
-    if kick or bent:
-        require_planar(beam)
+    if (kick or bent) and not beam.is_planar:
+        raise ValueError(
+            "kick and bent move a straight blade out of its plane, and this one, from stations or "
+            "with a twist, precone, prebend, sweep, kink or offset, leaves it by itself: leave "
+            "them out"
+        )
     space = lives_in_space(beam, loads) or bool(kick or bent)
     turning: Any = space_rotation if space else steady_rotation
     kind = SpaceResponse if space else SpinUpResponse
