@@ -42,10 +42,7 @@ def in_space(blade, **options):
         ({"step": 0.2}, "ramp_time 3 s holds 15 steps of 0.2 s, .* take a step of 0.15 s or less"),
         ({"duration": -1.0}, "duration must be positive"),
         ({"duration": 2.0}, "duration 2 s ends before the steady rotation"),
-        (
-            {"element": "cabel"},
-            "unknown element 'cabel'; known are 'cable', .*'space_exact'",
-        ),
+        ({"element": "cabel"}, "unknown element 'cabel'; known are 'cable', .*'space_exact'"),
         ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
         # Blades that an element does not model.
         ({"beam": BEAM.with_setting_angle(0.3)}, "the cosine 0.9553: take frame='rotating'"),

@@ -25,14 +25,7 @@ from analytic import (
 from analytic.description import describe, from_description
 from analytic.loads import HarmonicLoad, Load
 from analytic.motion import Motion, Rippled, SpeedChange
-from rotbeam_exu import (
-    dataset_of,
-    figures,
-    load,
-    natural_frequencies,
-    save,
-    simulate,
-)
+from rotbeam_exu import dataset_of, figures, load, natural_frequencies, save, simulate
 from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.files.results import differing_inputs
