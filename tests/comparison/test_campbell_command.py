@@ -18,11 +18,6 @@ def test_table_shows_frequencies_and_crossings(capsys):
     assert "3.208183" in printed  # where mode 1 meets the line ω
 
 
-def test_one_speed_is_no_diagram():
-    with pytest.raises(ValueError, match="points must be at least 2"):
-        command(points=1)
-
-
 def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path):
     (tmp_path / "beam.toml").write_text(
         "[beam]\nlength = 4.0\naxial_stiffness = 5.03e6\n"

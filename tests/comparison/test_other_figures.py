@@ -226,13 +226,6 @@ def test_figure_15_shows_where_each_orbit_ends():
     assert low < float(data["q_dot_bar"][2, -1]) < high
 
 
-@pytest.mark.parametrize("number", ["7", "x"])
-def test_unknown_figures_are_refused(number, call):
-    code, _, error = call("figure", "--", number)
-    assert code == 2
-    assert "it must be 3, 4, 5, 8" in error
-
-
 @pytest.mark.slow
 def test_all_figures_from_an_empty_cache(tmp_path, capsys):
     main(["figure", "all", "--out", str(tmp_path), "--cache", str(tmp_path / "cache")])

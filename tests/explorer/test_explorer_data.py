@@ -58,13 +58,6 @@ def test_it_writes_one_page_and_says_where(tmp_path, capsys, monkeypatch):
     assert [path.name for path in out.parent.iterdir()] == ["explorer.html"]
 
 
-def test_another_ending_is_refused_before_any_work(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(explorer, "explorer_data", lambda *_, **__: pytest.fail("computed first"))
-    code, _, error = call("explore", "--out", tmp_path / "explorer.pdf")
-    assert code == 2
-    assert "the ending must be .html" in error
-
-
 @pytest.mark.slow
 def test_the_whole_page_is_small_enough(tmp_path):
     out = tmp_path / "explorer.html"

@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from analytic import Beam, Blade, Damping, Ellipse, Rectangle, Section
-from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.files.beam_file import load_beam, load_run_file
 from rotbeam_exu.runs.attributes import beam_attributes, beam_of
 from tests.beams import BLADE_TOML
 
@@ -104,6 +104,19 @@ BAD = [
     (GOOD.encode("utf-16"), "not valid TOML"),
     (b"\0\0\0", "not valid TOML"),
 ]
+# With motion, numerics and loads.
+BAD += [
+    ("[motion]\nomega = -1", r"\[motion\]: omega must"),
+    ("[motion]\nomega = '60rpm'", "omega must be a number in rad/s, got '60rpm'"),
+    ("[motion]\nramp_time = 'long'", r"\[motion\]: ramp_time must be a number"),
+    ("[numerics]\nelements = 2.5", r"\[numerics\]: elements must be a whole number"),
+    ("[numerics]\nelement = 3", r"\[numerics\]: element must be a name in quotes, got 3"),
+    ("motion = 3", r"write \[motion\] as a table"),
+    ("loads = 3", 'write each ..loads.. as a table, with kind = "Gravity"'),
+    ("[[loads]]\nkind = 'Storm'", "..loads..: 'Storm' is no known Load"),
+    ("[[loads]]\nkind = 'TipForce'\nsize = 1.0", "..loads..: this is no TipForce"),
+    ("[movement]\nomega = 6", "unknown table or key 'movement'"),
+]
 CHANGED = [
     ("hub_radius", "hub_radios", r"unknown key 'hub_radios' in \[blade\]; did you mean 'hub_r"),
     ("mass_per_length", "mass_length", r"did you mean 'mass_per_length'\?"),
@@ -136,7 +149,7 @@ BAD += [(WHOLE.replace(old, new, 1), sentence) for old, new, sentence in CHANGED
 def test_a_bad_file_is_one_sentence(tmp_path, content, sentence):
     path = written(tmp_path / "beam.toml", content)
     with pytest.raises(ValueError, match=sentence) as refused:
-        load_beam(path)
+        load_run_file(path)
     assert str(path) in str(refused.value)
 
 

@@ -38,22 +38,6 @@ def test_the_script_is_the_command_that_prints_a_summary_and_writes_four_files(
     ]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (["--ramp-time", "-2"], "ramp_time must be positive, got -2.0 s"),
-        (["--omega", "nan"], "omega must be finite"),
-        (["--config", "none.toml"], "there is no file none.toml"),
-        (["--speed", "6"], "--speed"),
-    ],
-)
-def test_bad_arguments_exit_with_2_and_one_sentence(call, tmp_path, arguments, sentence):
-    code, _, error = call("run", "--out", tmp_path, *arguments)
-    assert code == 2
-    assert sentence in error
-    assert len(error.splitlines()) == 1
-
-
 def seconds_used_by(pid):
     """CPU time of a process [s]."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()

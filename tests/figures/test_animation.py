@@ -189,18 +189,3 @@ def test_nothing_to_animate_is_refused(beam):
     response = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), [0.0, 0.1], tolerance=1e-5)
     with pytest.raises(ValueError, match="points along the beam, .* got 0 of them at 2 times"):
         animate(dataset_of(response))
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (["--out", "beam.avi"], "the ending must be .gif or .mp4"),
-        (["--rate", "0"], "rate must be at least 1"),
-    ],
-)
-def test_bad_arguments_are_one_sentence(call, tmp_path, monkeypatch, arguments, sentence):
-    monkeypatch.chdir(tmp_path)
-    code, _, error = call("animate", *arguments)
-    assert code == 2
-    assert sentence in error
-    assert not list(tmp_path.iterdir())
