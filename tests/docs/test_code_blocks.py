@@ -1,4 +1,4 @@
-"""Every block of code in the pages runs, as test_readme.py does for the README; commands exist."""
+"""Every block of code in the README and the pages runs; commands exist."""
 
 import importlib.util
 import os
@@ -37,7 +37,7 @@ blocks = load("blocks")
 def page_cases(language, slow=()):
     for page in PAGES:
         found = list(blocks.fenced(page.read_text(encoding="utf-8")))
-        if page.name != "README.md" and any(block.language == language for block in found):
+        if any(block.language == language for block in found):
             marks = [pytest.mark.slow] if page in slow else []
             yield pytest.param(page, id=str(page.relative_to(ROOT)), marks=marks)
 

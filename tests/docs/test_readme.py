@@ -35,15 +35,6 @@ def test_the_lambda_table_is_computed(beam):
             assert f"{found:.5f}" == cell.strip(), (omega, name)
 
 
-def test_the_python_block_runs(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    for block in re.findall(r"```python\n(.*?)```", README, re.DOTALL):
-        exec(compile(block, "README.md", "exec"), {})
-    printed = capsys.readouterr().out
-    assert "frequency 0.99789" in printed
-    assert (tmp_path / "run.nc").exists()
-
-
 def test_the_toml_block_is_the_reference_beam(beam, tmp_path):
     block = re.search(r"```toml\n(.*?)```", README, re.DOTALL).group(1)
     (tmp_path / "beam.toml").write_text(block, encoding="utf-8")

@@ -19,7 +19,6 @@ from analytic import (
     Theory,
     TipForce,
     forced_response,
-    residual_amplitude,
     spin_up_response,
 )
 from analytic.description import describe, from_description
@@ -129,14 +128,6 @@ def test_exudyn_and_theory_agree_on_them(beam):
     assert min(np.abs(exact - other).max() for other in less) > 0.1 * largest
     with pytest.raises(TypeError, match="the frequency of a load, and a wind of 0.5 N/m has none"):
         forced_response(beam, 6.0, wind, [3.6, 3.7])
-
-
-def test_what_a_new_ramp_leaves_is_known(beam):
-    ramp = HalfSine(omega=2.0, ramp_time=4.0)
-    # In closed form, linear, and exact: 0.05 of the length is hardly nonlinear.
-    assert residual_amplitude(beam, ramp) == pytest.approx(
-        residual_amplitude(beam, ramp, exact=True), rel=5e-3
-    )
 
 
 def test_a_new_load_has_a_response_a_file_and_a_picture(tmp_path):

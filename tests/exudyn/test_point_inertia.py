@@ -101,8 +101,3 @@ def test_a_spin_up_follows_the_exact_blade_in_either_frame(beam, fitted_order):
     assert np.abs(rotating[-1]["q"] - exact.q).max() < 5e-5 * size
     apart = [float(abs(a["q"] - b["q"]).max()) for a, b in zip(inertial, rotating, strict=True)]
     assert fitted_order(steps, apart) == pytest.approx(2.0, abs=0.1)
-    for run in inertial[-1], rotating[-1]:
-        steady = run.where(run["time"] >= 4.0, drop=True)
-        energy = steady["jacobi_energy"].to_numpy()
-        # A ripple of second order, 1.2e-4 of 4 ms.
-        assert np.ptp(energy) < 1.5e-4 * steady["elastic_energy"].max()

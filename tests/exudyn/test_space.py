@@ -98,21 +98,6 @@ def test_energy_and_both_frames():
     assert max(energy_drift(run)[0] for run in runs) < 1e-4
 
 
-def test_drift_of_the_geometrically_exact_beam_is_that_of_the_step():
-    orbit = periodic_orbits(TUBE, 2.0, [0.3])
-    drifts = [
-        energy_drift(
-            simulate(
-                TUBE, SteadyRotation(omega=2.0), element="space_exact", elements=4, duration=1.0,
-                step=step, initial_state=kicked(TUBE, 1e-6, lambda x: orbit.state(0, x)),
-            )
-        )[0]
-        for step in (1e-2, 5e-3)
-    ]  # fmt: skip
-    # Of second order: whatever the kinetic or elastic energy missed would stay.
-    assert drifts[0] / drifts[1] == pytest.approx(4.0, rel=0.1)
-
-
 def growth_rate_of(run, period):
     """Return the rate [1/s] of the envelope out of the plane, and over how many powers of ten.
 
@@ -149,12 +134,6 @@ def test_rate_of_a_known_growth(rate):
     assert found == pytest.approx(rate, rel=0.02)
     if rate == 0.9:
         assert decades == pytest.approx(3.0, abs=0.01)
-
-
-@pytest.mark.parametrize("kick", [0.5, np.nan])
-def test_a_kick_is_small(kick):
-    with pytest.raises(ValueError, match="kick"):
-        kicked(RECTANGLE, kick)
 
 
 def run_on_an_orbit(blade, omega, amplitude, periods, element="space_exact", **settings):
