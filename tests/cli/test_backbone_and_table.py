@@ -8,20 +8,9 @@ import pytest
 from analytic import VARIANTS, Beam, paper_table, periodic_orbits, reduced_model
 from analytic.methods.continuation import Care
 from analytic.reduced.model_range import model_at
+from tests.beams import BLADE_TOML
 
-BLADE = """
-[blade]
-length = 8.0
-hub_radius = 0.5
-
-[blade.section]
-axial_stiffness = 5.0e6
-bending_stiffness = 566.0
-mass_per_length = 0.2
-
-[motion]
-omega = 6
-"""
+BLADE = BLADE_TOML.replace("[blade]", "[blade]\nhub_radius = 0.5") + "[motion]\nomega = 6\n"
 
 
 def test_csv_keeps_every_digit_of_what_the_model_answers(call):

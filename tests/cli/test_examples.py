@@ -16,24 +16,13 @@ from rotbeam_exu.sweeps import grid
 from rotbeam_exu.verification import verify as room
 from rotbeam_exu.verification.judgement import Judgement
 from rotbeam_exu.verification.submission import Declaration
+from tests.beams import BEAM_TOML
 
 EXAMPLES = [example for command in _COMMANDS for example in documented(command)[1]]
-BEAM = """
-[beam]
-length = 8.0
-axial_stiffness = 5.0e6
-bending_stiffness = 566.0
-mass_per_length = 0.2
-
-[motion]
-omega = 6
-ramp_time = 3
-
-[numerics]
-elements = 2
-step = 0.01
-duration = 8
-"""
+BEAM = (
+    f"{BEAM_TOML}[motion]\nomega = 6\nramp_time = 3\n"
+    "[numerics]\nelements = 2\nstep = 0.01\nduration = 8\n"
+)
 
 
 def measured_at_once(cases, *_):

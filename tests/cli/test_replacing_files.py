@@ -7,19 +7,17 @@ from rotbeam_exu import comparison, explorer, figures, load
 from rotbeam_exu.fem import simulation
 from rotbeam_exu.sweeps import grid
 from rotbeam_exu.verification import verify
+from tests.beams import BEAM_TOML
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
 QUICK = ("--no-figure", "--no-exact")
-BEAM = (
-    "[beam]\nlength = {}\naxial_stiffness = 5e6\nbending_stiffness = 566.0\nmass_per_length = 0.2\n"
-)
 
 
 def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp_path, monkeypatch):
     assert call("run", *SHORT, "--no-exact", "--out", tmp_path)[0] == 0
     assert call("run", *SHORT, *QUICK, "--out", tmp_path)[0] == 0
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
-    (tmp_path / "beam.toml").write_text(BEAM.format(8.0))
+    (tmp_path / "beam.toml").write_text(BEAM_TOML)
     with monkeypatch.context() as patch:
         patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))
         for options, sentence in (
