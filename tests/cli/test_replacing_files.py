@@ -1,5 +1,7 @@
 """Nothing that was computed is lost: other inputs do not replace it, and failures are kept."""
 
+import re
+
 import pytest
 
 import analytic
@@ -43,14 +45,17 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
     assert load(next(tmp_path.glob("*.nc"))).attrs["frame"] == "rotating"
 
 
-def test_a_short_window_keeps_the_run_and_says_where(call, tmp_path):
-    short = (*SHORT[:4], "--duration", "5", "--no-figure", "--out", tmp_path)
-    code, _, error = call("run", *short)
+def test_a_short_window_keeps_the_run_and_says_where_and_how_long_is_enough(call, tmp_path):
+    short = ("run", *SHORT[:4], "--duration", "5", "--no-figure", "--out", tmp_path)
+    code, _, error = call(*short)
     assert code == 1
     kept = tmp_path / "cable-2-omega-6-ramp-3.nc"
     assert f"the run itself is in {kept}" in error
     assert load(kept).attrs["verdict"] == "passed"
     assert kept.with_suffix(".csv").exists()
+    enough = float(re.search(r"run for (\S+) s or longer", error)[1])
+    long = ("--duration", round(enough + 0.005, 2), "--force", "--no-exact")
+    assert call(*short[:5], *long, *short[-3:])[0] == 0
 
 
 def test_a_failed_run_is_kept_and_marked(call, tmp_path):

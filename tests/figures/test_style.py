@@ -103,13 +103,9 @@ DRAWINGS = {name for name in figures.__all__ if name.islower()} - {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", sorted(DRAWINGS))
-def test_every_figure_takes_data_of_one_s_own(name):
-    """By the one argument; what it does is below."""
-    assert "own" in getattr(figures, name).__kwdefaults__
-
-
 def test_own_data_is_drawn_and_named(data):
+    """By each figure's one argument."""
+    assert all("own" in getattr(figures, name).__kwdefaults__ for name in DRAWINGS)
     own = {"mine": ([0.99, 0.995], [0.1, 0.2]), "theirs": ([0.985], [0.3])}
     axes = figures.figure_14(data, own=own)[0]
     drawn = {line.get_label(): line for line in axes.lines if line.get_label() in own}

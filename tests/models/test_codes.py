@@ -70,13 +70,6 @@ def test_rigid_links_tend_to_the_inextensible_beam():
     assert limit == pytest.approx(1.6e-4, abs=1e-5)
 
 
-def test_a_changed_file_is_noticed(tmp_path):
-    folder = shutil.copytree(CODES / "mujoco" / "submission", tmp_path / "submission")
-    table = folder / "L.csv"
-    table.write_text(table.read_text().replace("9", "8", 1))
-    assert common.digest(folder) != record("mujoco")["digest"]
-
-
 def test_times_at_equal_error_are_read_between_the_best_runs():
     class Stub(overview.Code):
         runs = ((1.0, 1e-1), (2.0, 2e-1), (4.0, 1e-3))
