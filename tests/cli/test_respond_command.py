@@ -5,9 +5,10 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 
 from analytic import Damping, ResponseNotReachedError
-from rotbeam_exu import load
+from rotbeam_exu import dataset_of, load
 from rotbeam_exu.cli import respond as job
 from rotbeam_exu.runs.attributes import beam_of
 from tests.beams import BLADE_TOML
@@ -45,17 +46,12 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
         f"{name}.{kind}" for kind in ("nc", "csv", "png", "pdf")
     }
     data, table = load(tmp_path / f"{name}.nc"), pd.read_csv(tmp_path / f"{name}.csv", comment="#")
-    units = {"frequency": " [rad/s]", "phase": " [rad]"}
-    for variable in ("frequency", "amplitude", "phase", "stable"):
-        assert data[variable].to_numpy() == pytest.approx(getattr(folded, variable))
-        title = f"{variable}{units.get(variable, '')}"
-        assert set(table[title]) == set(data[variable].to_numpy())
+    xr.testing.assert_equal(data, dataset_of(folded))
+    assert set(table["phase [rad]"]) == set(folded.phase)
     assert (data["cosine"] - 1j * data["sine"]).to_numpy() == pytest.approx(folded.harmonics)
-    assert data["backbone_frequency"][0].item() == pytest.approx(folded.backbone.omega_n)
     assert beam_of(data.attrs) == folded.beam
     attrs = {"load": "SpeedRipple", "load_size": 0.002, "load_unit": "rad/s", "omega": 6.0}
     assert attrs.items() <= data.attrs.items()
-    assert data.attrs["residual"] == pytest.approx(folded.residual.max())
     assert "numpy" in data.attrs["versions"]
 
 

@@ -90,9 +90,6 @@ def test_natural_frequencies_refuse(beam):
         natural_frequencies(beam, -1.0)
     with pytest.raises(ValueError, match="count = 9 is more than the 5 modes"):
         natural_frequencies(beam, 1.0, elements=1, count=9)
-
-
-def test_a_speed_in_rpm_is_noticed(beam):
     with pytest.warns(RotbeamWarning, match="40 rad/s is 14 times .* rpm"):
         natural_frequencies(beam, 40.0, elements=32)
 

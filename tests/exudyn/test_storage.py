@@ -160,13 +160,8 @@ def test_a_table_has_a_row_for_each_point_of_the_grid(tmp_path):
         assert table["passed"].dtype == bool
 
 
-def test_seconds_are_no_time_deltas(tmp_path):
-    data = xr.Dataset({"v": ("x", [1.5, 2.0], {"units": "seconds"})})
-    xr.testing.assert_identical(load(save(data, tmp_path / "y.nc")), data)
-
-
-def test_fill_values_of_another_file_are_not_taken_over(tmp_path):
-    data = xr.Dataset({"v": ("x", [1.0, np.nan, -0.5])})
+def test_seconds_are_no_time_deltas_and_fill_values_of_another_file_not_taken_over(tmp_path):
+    data = xr.Dataset({"v": ("x", [1.0, np.nan, -0.5], {"units": "seconds"})})
     data["v"].encoding = {"_FillValue": -1.0, "dtype": "int16", "scale_factor": 0.5}
     xr.testing.assert_identical(load(save(data, tmp_path / "x.nc")), data)
 

@@ -26,10 +26,7 @@ def drawn(response, n):
     animation._draw_frame(n)
     animation._draw_was_started = True
     inertial, rotating, history = animation._fig.axes
-    beams = []
-    for ax in (inertial, rotating):
-        beam = max(ax.lines, key=lambda line: line.get_linewidth())
-        beams.append(beam.get_xdata() + 1j * beam.get_ydata())
+    beams = [seen_in(ax) for ax in (inertial, rotating)]
     dot = next(line for line in history.lines if line.get_marker() == "o")
     return animation, beams, (dot.get_xdata()[0], dot.get_ydata()[0])
 

@@ -64,22 +64,14 @@ def test_grey_has_no_color_and_tells_lines_apart(data):
     assert len(set(to_rgb(own.get_color()))) == 1
     looks = {(to_rgb(line.get_color()), str(line._dash_pattern)) for line in axes.lines[:3]}
     assert len(looks) == 3
-
-
-def test_models_differ_by_more_than_their_color():
     dashes = [str(line["ls"]) for name, line in MODEL_LINES.items() if name != "exact"]
-    assert len(set(dashes)) == len(dashes)
+    assert len(set(dashes)) == len(dashes), "by more than their color"
 
 
 def test_an_unknown_style_names_those_that_are_known():
     known = pytest.raises(ValueError, match="known are house, journal, grey")
     with known, figures.style("sepia"):
         pass
-
-
-def test_numbers_are_typeset():
-    words = typeset("-33.4 %, 1.758e-06, 2e+03 and (-v), rad-s, 1-2")
-    assert words == "−33.4 %, 1.758·10⁻⁶, 2·10³ and (-v), rad-s, 1-2"
 
 
 def test_models_are_spelled_out_where_there_is_room(data):
@@ -156,6 +148,8 @@ def test_axes_have_fitting_units_and_keep_their_data(size, unit, shown):
 
 
 def test_numbers_in_words_have_a_prefix_beyond_those_of_the_paper_s_beam():
+    words = typeset("-33.4 %, 1.758e-06, 2e+03 and (-v), rad-s, 1-2")
+    assert words == "−33.4 %, 1.758·10⁻⁶, 2·10³ and (-v), rad-s, 1-2"
     assert quantity(0.002, "rad/s") == "0.002 rad/s"
     assert quantity(4.5e-5, "s") == "45 µs"
     assert quantity(5.0328e6, "N", 4) == "5.033 MN"
