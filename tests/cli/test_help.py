@@ -34,9 +34,7 @@ def test_the_help_of_each_command(call, monkeypatch):
         assert set(documented(command)[1]) <= {line.strip() for line in out.splitlines()}
     assert "--gravity [FLOAT]" in helps["respond"][1]
     for command, names in (
-        ("run", FORMULATIONS),
-        ("sweep", FORMULATIONS),
-        ("verify", FORMULATIONS),
+        ("run", FORMULATIONS), ("sweep", FORMULATIONS), ("verify", FORMULATIONS),
         ("backbone", VARIANTS),
-    ):
+    ):  # fmt: skip
         assert set(names) <= set(re.findall(r"\w+", helps[command][1]))

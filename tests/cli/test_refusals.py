@@ -31,6 +31,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("backbone --omega 6 --exact --functions 1000000", "at most 256 functions"),
         ("run --omega nan", "omega must be finite"),
         ("run --ramp-time -2", "ramp_time must be positive, got -2.0 s"),
+        ("run --omega 0", "nothing oscillates: take a speed above zero, as 6 rad/s"),
         ("run --rpm 60", "as --omega, and 1 rpm is 0.10472 rad/s"),
         ("sweep --hz=1.5", "1 hz is 6.28319 rad/s"),
         # Options: what is missing or unknown, and endings.

@@ -15,14 +15,6 @@ def run(call, tmp_path, *more, **options):
     return call("run", "--no-figure", "--out", tmp_path / "out", "--force", *flat, *more)
 
 
-def test_at_rest_nothing_oscillates(call, tmp_path, monkeypatch):
-    with monkeypatch.context() as patch:
-        patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))
-        code, _, error = run(call, tmp_path, omega=0)
-    assert code == 2
-    assert "nothing oscillates: take a speed above zero, as 6 rad/s" in error
-
-
 def test_a_step_that_does_not_fit_names_one_that_does(call, tmp_path):
     code, _, error = run(call, tmp_path, step=0.011)
     assert code == 2

@@ -94,13 +94,11 @@ def stopped(*_, **__):
 @pytest.mark.parametrize(
     ("command", "room", "name"),
     [
-        ("sweep", grid, "sweep"),
-        ("explore", explorer, "explorer_data"),
-        ("compare", comparison, "figure_14"),
-        ("verify --element cable", verify, "verify"),
+        ("sweep", grid, "sweep"), ("explore", explorer, "explorer_data"),
+        ("compare", comparison, "figure_14"), ("verify --element cable", verify, "verify"),
         ("reference", analytic, "spin_up_response"),
     ],
-)
+)  # fmt: skip
 def test_ctrl_c_says_what_is_kept_or_that_nothing_is(
     call, tmp_path, monkeypatch, command, room, name
 ):

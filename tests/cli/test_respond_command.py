@@ -67,8 +67,7 @@ def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
     omega = () if kind == "Gravity" else ("--omega", "6")
     code, out, _ = call(
         "respond", *load_option, *omega, "--external-damping", "0.5", "--from", "4.5", "--to", "5",
-        "--points", "2", "--functions", "6", "--inextensible", "--no-figure", "--out",
-        tmp_path,
+        "--points", "2", "--functions", "6", "--inextensible", "--no-figure", "--out", tmp_path,
     )  # fmt: skip
     assert code == 0
     data = load(next(tmp_path.glob("*.nc")))

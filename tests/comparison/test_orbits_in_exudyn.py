@@ -22,14 +22,9 @@ def test_exudyn_returns_after_the_predicted_period(beam, omega, amplitude):
     period = 2.0 * np.pi / backbone.frequency[0]
     steps = 1000
     run = simulate(
-        beam,
-        SteadyRotation(omega=omega),
-        elements=32,
-        step=period / steps,
-        duration=4.0 * period,
-        frame="rotating",
-        initial_state=lambda x: backbone.state(0, x, phase=0.3),
-    )
+        beam, SteadyRotation(omega=omega), elements=32, step=period / steps, duration=4.0 * period,
+        frame="rotating", initial_state=lambda x: backbone.state(0, x, phase=0.3),
+    )  # fmt: skip
     q = run["q"].to_numpy() / beam.length
     start, after = q[0], q[(q.size - 1) // 4]
     # Asked: 1e-3 of the amplitude, 1e-5 of the frequency. Mesh and step leave 4e-6 of it.

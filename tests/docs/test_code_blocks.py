@@ -1,14 +1,13 @@
 """Every block of code in the README and the pages runs; commands exist."""
 
-import importlib.util
 import os
 import re
 import shlex
-import sys
 from pathlib import Path
 
 import pytest
 
+from docs._ext import blocks
 from rotbeam_exu.cli import app
 
 ROOT = Path(__file__).parents[2]
@@ -20,18 +19,6 @@ SLOW = ("theory/continuum", "theory/harmonic_balance", "theory/out_of_plane", "t
         "howto/forced_response", "howto/own_beam", "howto/own_element", "howto/paper_figures",
         "howto/quiet_spin_up", "howto/real_blade", "howto/sweeps")  # fmt: skip
 SLOW_PAGES = {ROOT / "docs" / f"{name}.md" for name in SLOW}
-
-
-def load(name):
-    """A module of docs/_ext, which is no package."""
-    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / "_ext" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-blocks = load("blocks")
 
 
 def page_cases(language, slow=()):

@@ -85,26 +85,20 @@ def shares(element, spin_up):
 
 
 QUANTITIES = (
-    ("L", "linear frequency"),
-    ("S1", "history"),
-    ("S1", "nonlinear shift"),
-    ("O", "nonlinear shift"),
-    ("S4", "history"),
-)
+    ("L", "linear frequency"), ("S1", "history"), ("S1", "nonlinear shift"),
+    ("O", "nonlinear shift"), ("S4", "history"),
+)  # fmt: skip
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("row", "element"),
     [
-        ("`cable`", Cable()),
-        ("`exact`", Exact()),
-        ("`exact`, `nodes=3`", Exact(nodes=3)),
+        ("`cable`", Cable()), ("`exact`", Exact()), ("`exact`, `nodes=3`", Exact(nodes=3)),
         ("`ancf3`, `poisson_ratio=0`", Ancf3(poisson_ratio=0.0)),
-        ("`ancf3`, `law=coupled`", Ancf3(law="coupled")),
-        ("`linear`", Linear()),
+        ("`ancf3`, `law=coupled`", Ancf3(law="coupled")), ("`linear`", Linear()),
     ],
-)
+)  # fmt: skip
 def test_codes_tend_to_what_the_table_of_formulations_says(row, element):
     """Limits to their bars; what they are less than is not compared."""
     page = (ROOT / "docs/validation.md").read_text(encoding="utf-8")

@@ -37,14 +37,9 @@ def data():
         patch.setattr(room, "worker_pool", lambda *_: nullcontext(AtOnce()))
         warnings.simplefilter("ignore", RotbeamWarning)
         return explorer_data(
-            omegas=OMEGAS,
-            amplitudes=AMPLITUDES,
-            finite_element_omegas=(6.0,),
-            ramp_times=(3.0, 2.5),
-            exact_ramp_times=RAMPS,
-            elements=4,
-            step=4e-3,
-        )
+            omegas=OMEGAS, amplitudes=AMPLITUDES, finite_element_omegas=(6.0,),
+            ramp_times=(3.0, 2.5), exact_ramp_times=RAMPS, elements=4, step=4e-3,
+        )  # fmt: skip
 
 
 @pytest.fixture(scope="session")

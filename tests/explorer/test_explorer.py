@@ -51,18 +51,14 @@ def test_numbers_are_those_of_the_api(page, at, beam):
         at(page, omega, a)
         exact = periodic_orbits(beam, omega, [a])
         assert cells(page, "exact") == [
-            shown(exact.omega_n, 4),
-            shown(exact.lambda_omega, 5),
-            shown(exact.frequency[0], 4),
-        ]
+            shown(exact.omega_n, 4), shown(exact.lambda_omega, 5), shown(exact.frequency[0], 4),
+        ]  # fmt: skip
         for name in VARIANTS:
             model = reduced_model(beam, omega, name)
             frequency = model.frequency(model.first_harmonic(a))
             assert cells(page, name) == [
-                shown(model.omega_n, 4),
-                shown(model.lambda_omega, 5),
-                shown(frequency, 4),
-            ]
+                shown(model.omega_n, 4), shown(model.lambda_omega, 5), shown(frequency, 4),
+            ]  # fmt: skip
             linear = model.omega_n / exact.omega_n - 1.0
             shift = frequency / model.omega_n - exact.frequency[0] / exact.omega_n
             for cell, error in (("linear-error", linear), ("shift-error", shift)):

@@ -10,12 +10,9 @@ from rotbeam_exu.explorer import explorer_page
 pytestmark = pytest.mark.slow
 
 STATES = [
-    "",
-    "omega=0&a=0.05&hide=",
-    "omega=12&a=0.6&scale=all&norm=exact&hide=",
-    "omega=4&a=0.2&scale=close&norm=exact&hide=exact.FrM5.FE",
-    "omega=6&a=0.45&scale=all&hide=",
-]
+    "", "omega=0&a=0.05&hide=", "omega=12&a=0.6&scale=all&norm=exact&hide=",
+    "omega=4&a=0.2&scale=close&norm=exact&hide=exact.FrM5.FE", "omega=6&a=0.45&scale=all&hide=",
+]  # fmt: skip
 # Boxes of letters reach above and below what is drawn: two pixels may be shared.
 OVERLAPS = """() => {
     const seen = e => e.checkVisibility({visibilityProperty: true, opacityProperty: true});

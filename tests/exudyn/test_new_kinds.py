@@ -167,13 +167,11 @@ def test_a_run_and_its_file_say_what_drove_it(beam, tmp_path):
 @pytest.mark.parametrize(
     "motion",
     [
-        MOTION,
-        FourierRamp(start=1.0, omega=2.0, ramp_time=2.0, cosines=(-1.2, 0.2)),
-        SpeedTable([0.0, 1.0, 2.0], [0.5, 1.0, 2.0]),
-        SpinUp(omega=2.0, ramp_time=2.0),
+        MOTION, FourierRamp(start=1.0, omega=2.0, ramp_time=2.0, cosines=(-1.2, 0.2)),
+        SpeedTable([0.0, 1.0, 2.0], [0.5, 1.0, 2.0]), SpinUp(omega=2.0, ramp_time=2.0),
     ],
     ids=lambda motion: type(motion).__name__,
-)
+)  # fmt: skip
 def test_an_exact_spin_up_says_what_drove_it(beam, motion, tmp_path):
     ripple = SpeedRipple(amplitude=0.2, frequency=5.0)
     time = np.linspace(0.0, 2.5, 6)

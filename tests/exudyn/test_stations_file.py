@@ -35,8 +35,7 @@ def test_a_planar_blade(loaded):
 def test_a_blade_in_space(loaded):
     """Shear that is not told is as stiff as EA; inertia that is not told, of one material."""
     by_hand = Blade.from_stations(
-        [0.0, 10.0],
-        [[1e7, 1e7, 1e7, 8e3, 5e3, 8e4], [4e6, 4e6, 4e6, 1e3, 1e3, 2e4]],
+        [0.0, 10.0], [[1e7, 1e7, 1e7, 8e3, 5e3, 8e4], [4e6, 4e6, 4e6, 1e3, 1e3, 2e4]],
         [[8.0, 0.068, 0.004, 0.064], [4.0, 0.021, 0.001, 0.02]],
         twist=np.radians([10.0, 0.0]), center=[[-0.02, 0.0], [-0.01, 0.0]],
     )  # fmt: skip

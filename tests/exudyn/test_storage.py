@@ -67,13 +67,11 @@ NAMES = st.text("abcxyz_019", min_size=1, max_size=5)
 ATTRIBUTES = st.dictionaries(
     NAMES.map("my_{}".format),
     st.one_of(
-        TEXT,
-        NUMBERS,
-        st.lists(st.floats(), min_size=2, max_size=4),
+        TEXT, NUMBERS, st.lists(st.floats(), min_size=2, max_size=4),
         st.lists(TEXT, min_size=2, max_size=4),
     ),
     max_size=4,
-)
+)  # fmt: skip
 VALUES = st.sampled_from(["f8", "f4", "i8", "u2", "?", "U", "O"])
 
 

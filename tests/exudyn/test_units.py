@@ -25,23 +25,18 @@ def slender(mu):
     """The paper's beam with another axial stiffness."""
     paper = Beam.reference()
     return Beam.from_stiffness(
-        length=paper.length,
-        axial_stiffness=paper.bending_stiffness / (mu * paper.length**2),
-        bending_stiffness=paper.bending_stiffness,
-        mass_per_length=paper.mass_per_length,
-    )
+        length=paper.length, axial_stiffness=paper.bending_stiffness / (mu * paper.length**2),
+        bending_stiffness=paper.bending_stiffness, mass_per_length=paper.mass_per_length,
+    )  # fmt: skip
 
 
 def spun_up(beam, speed_ratio, steps=2000, **options):
     """Spin up to Ω in nine units of time, and on to twelve: q/L on a grid of its own."""
     second = 1.0 / beam.frequency_scale
     run = simulate(
-        beam,
-        SpinUp(omega=speed_ratio * beam.omega_0, ramp_time=9.0 * second),
-        duration=12.0 * second,
-        step=12.0 * second / steps,
-        **options,
-    )
+        beam, SpinUp(omega=speed_ratio * beam.omega_0, ramp_time=9.0 * second),
+        duration=12.0 * second, step=12.0 * second / steps, **options,
+    )  # fmt: skip
     assert run.attrs["verdict"] == "passed"
     return run["q"].to_numpy() / beam.length
 
@@ -49,22 +44,18 @@ def spun_up(beam, speed_ratio, steps=2000, **options):
 @pytest.mark.parametrize(
     ("beam", "speed_ratio", "frame"),
     [
-        (STEEL_BAR, 1.5, "inertial"),
-        (BLADE, 1.5, "rotating"),
-        (REED, 0.5, "rotating"),
+        (STEEL_BAR, 1.5, "inertial"), (BLADE, 1.5, "rotating"), (REED, 0.5, "rotating"),
         (slender(1e-2), 0.5, "rotating"),
     ],
     ids=["bar", "blade", "reed", "stout"],
-)
+)  # fmt: skip
 def test_real_beams_of_any_size_follow_the_exact_one(beam, speed_ratio, frame):
     q = spun_up(beam, speed_ratio, elements=8, frame=frame)
     second = 1.0 / beam.frequency_scale
     exact = spin_up_response(
-        beam,
-        SpinUp(omega=speed_ratio * beam.omega_0, ramp_time=9.0 * second),
-        np.linspace(0.0, 12.0 * second, q.size),
-        tolerance=1e-4,
-    )
+        beam, SpinUp(omega=speed_ratio * beam.omega_0, ramp_time=9.0 * second),
+        np.linspace(0.0, 12.0 * second, q.size), tolerance=1e-4,
+    )  # fmt: skip
     # Eight cables and a step of 6e-3 units of time: the mesh leaves 1e-4, the step half of it.
     assert np.abs(q - exact.q / beam.length).max() < 5e-4 * np.abs(q).max()
 

@@ -27,15 +27,13 @@ def data():
     mesh = ("mesh", "omega", "ramp_time")
     return xr.Dataset(
         {
-            "backbone": (("model", "omega", "a"), ratio),
-            "ratio": (mesh, points),
-            "amplitude": (mesh, [[[0.1, 0.2]]]),
-            "ratio_error": (mesh, bars),
+            "backbone": (("model", "omega", "a"), ratio), "ratio": (mesh, points),
+            "amplitude": (mesh, [[[0.1, 0.2]]]), "ratio_error": (mesh, bars),
             "amplitude_error": (mesh, bars),
         },
         {"model": ["CE", "CI", "exact"], "omega": [6.0], "a": a, "mesh": ["paper"], "ramp_time": t},
         {**beam_attributes(Beam.reference()), "meshes": "16 cable elements"},
-    )
+    )  # fmt: skip
 
 
 def colors(axes):
@@ -80,11 +78,9 @@ def test_models_are_spelled_out_where_there_is_room(data):
     (legend,) = figure.legends
     names = [text.get_text() for text in legend.get_texts()]
     assert names == [
-        "CE: cantilever's mode, extensible",
-        "CI: cantilever's mode, inextensible",
-        "exact: geometrically exact beam",
-        "16 elements",
-    ]
+        "CE: cantilever's mode, extensible", "CI: cantilever's mode, inextensible",
+        "exact: geometrically exact beam", "16 elements",
+    ]  # fmt: skip
     figure, ax = plt.subplots(figsize=(3.5, 3.0))
     figures.figure_14(data, ax=[ax])
     assert figure.legends[0].get_texts()[0].get_text() == "CE"

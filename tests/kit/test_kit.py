@@ -116,12 +116,9 @@ def test_a_start_is_the_orbit_with_its_slopes_and_rates(folder):
         span = 2e-4 / orbit.frequency[0]
         angles = [np.arctan2(one.v_slope, 1.0 + one.u_slope) for one in at]
         for name, (before, after) in {
-            "X_dot": [one.u for one in at],
-            "Y_dot": [one.v for one in at],
-            "angle_dot": angles,
-            "X_slope_dot": [one.u_slope for one in at],
-            "Y_slope_dot": [one.v_slope for one in at],
-        }.items():
+            "X_dot": [one.u for one in at], "Y_dot": [one.v for one in at], "angle_dot": angles,
+            "X_slope_dot": [one.u_slope for one in at], "Y_slope_dot": [one.v_slope for one in at],
+        }.items():  # fmt: skip
             assert start[name] == pytest.approx((after - before) / span, abs=1e-6)
     fine = columns(folder / "start_O_64.csv")
     assert np.abs(fine["Y"]).max() < 1e-12  # straight as it passes the axis

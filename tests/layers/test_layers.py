@@ -26,20 +26,11 @@ FLOORS = {
         {"spin_up"},
     ],
     "rotbeam_exu": [
-        {"lazily"},
-        {"labels", "paper"},
-        {"runs"},
-        {"files"},
-        {"result_columns"},
-        {"datasets"},
-        {"fem"},
-        {"sweeps", "verification"},
-        {"comparison"},
-        {"figures", "explorer"},
-        {"report"},
+        {"lazily"}, {"labels", "paper"}, {"runs"}, {"files"}, {"result_columns"}, {"datasets"},
+        {"fem"}, {"sweeps", "verification"}, {"comparison"}, {"figures", "explorer"}, {"report"},
         {"cli"},
     ],
-}
+}  # fmt: skip
 ALLOWED = {
     "exudyn": ("rotbeam_exu/fem/",),
     # A result draws itself, on axes that only analytic.plotting makes, when it is asked to.
