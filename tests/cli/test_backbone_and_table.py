@@ -90,9 +90,6 @@ def test_the_exact_backbone_of_a_higher_mode_comes_alone(call, monkeypatch):
     assert far["exact beam [rad/s]"] == "nan"
     assert code == 1
     assert "no orbit of mode 2 at omega = 6 rad/s with a peak |q|/L of 0.2" in error
-    code, _, error = call(*arguments, "--variant", "FrE")
-    assert code == 2
-    assert "the reduced models are of mode 1" in error
 
 
 def test_tables_are_printed_with_their_notes(call, monkeypatch):
@@ -107,6 +104,3 @@ def test_tables_are_printed_with_their_notes(call, monkeypatch):
             assert {row.printed, row.derived} <= cells
             assert row.note in printed
     assert "erratum" in tables[2]
-    for number in ("0", "6", "every"):
-        code, out, error = call("table", number)
-        assert (code, out, len(error.splitlines())) == (2, "", 1)

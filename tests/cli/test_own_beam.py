@@ -9,7 +9,7 @@ from rotbeam_exu.cli import compare as compare_job
 from rotbeam_exu.cli.motion import ChosenMotion, grid_motion
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.sweeps import grid
-from tests.beams import BLADE_TOML, REED_TOML
+from tests.beams import REED_TOML
 
 
 @pytest.fixture
@@ -47,16 +47,6 @@ def test_compare_and_sweep_take_the_beam_of_the_file(reached, tmp_path, reed):
     assert seen["omegas"] == [720.0, 1400.0, 2200.0, 2900.0]
     assert seen["ramp_times"][0] == pytest.approx(3.375 / 361.06, rel=1e-3)
     assert (seen["duration"], seen["step"]) == (pytest.approx(0.042), 2e-6)
-
-
-def test_compare_is_of_uniform_beams(call, tmp_path):
-    blade = tmp_path / "blade.toml"
-    blade.write_text(BLADE_TOML)
-    code, _, error = call("compare", "--config", blade, "--out", tmp_path)
-    assert code == 2
-    assert "for a [blade] take rotbeam backbone --variant FrM --exact" in error
-    remedy = ("--variant", "FrM", "--exact", "--omega", "6", "--amplitude", "0.1")
-    assert call("backbone", "--config", blade, *remedy)[0] == 0
 
 
 def test_of_the_papers_beam_nothing_changes():

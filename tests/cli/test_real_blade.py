@@ -37,9 +37,3 @@ def test_a_command_takes_it(call, tmp_path, monkeypatch, command, told):
     for path in tmp_path.glob("**/*.nc"):
         with xr.open_dataset(path) as data:
             assert sum(map(int, data.isnull().sum().values())) < sum(v.size for v in data.values())
-
-
-def test_what_the_file_does_not_tell_is_asked_for(call, tmp_path):
-    code, _, error = call("stability", *SPEED, "--config", NREL, "--out", tmp_path)
-    assert code == 2
-    assert "out_of_plane" in error or "--section" in error

@@ -8,7 +8,8 @@ from tests.beams import BLADE_TOML
 
 FILES = {
     "blade": BLADE_TOML, "slip": "[motion]\nomga = 6", "load": "[[loads]]\nkind = 'Gravity'\n",
-    "element": "[numerics]\nelement = 'cabel'", "frame": "[numerics]\nframe = 'rotated'",
+    "motion": "[motion]\nomega = 4", "element": "[numerics]\nelement = 'cabel'",
+    "frame": "[numerics]\nframe = 'rotated'",
 }  # fmt: skip
 RUN, SWEEP, RESPOND = "run ", "sweep --omega 6 --ramp-time 3 ", "respond --from 3.6 --to 4 "
 STABILITY, GRAVITY = "stability --omega 2 ", f"{RESPOND}--gravity --damping-ratio 0.1 "
@@ -23,6 +24,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("sweep --jobs 1e1", "it must be a whole number"),
         ("table nan", "it must be"),
         ("table 6", "it must be"),
+        ("table every", "it must be"),
         ("animate --rate 0.6", "it must be a whole number"),
         ("animate --rate 0", "rate must be at least 1"),
         ("campbell --points ''", "it must be a whole number"),
@@ -42,6 +44,8 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("run --config ../element.toml", "unknown element 'cabel'"),
         ("run --config ../frame.toml", "unknown frame 'rotated'"),
         ("reference --config ../load.toml", "[[loads]], which only run, sweep and converge"),
+        ("compare --config ../blade.toml", "take rotbeam backbone --variant FrM --exact"),
+        ("explore --config ../motion.toml", "leave [motion] out of the file"),
         ("run --tip-force 1", "with --load-frequency"),
         ("respond --to 2", f"--from {HELP.format('respond')}"),
         ("figure", f"NUMBER {HELP.format('figure')}"),
@@ -52,11 +56,15 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("figure 13 --style sepia", "unknown style 'sepia'; known are house, journal, grey"),
         ("verify --element cabel", "unknown element 'cabel'; known are 'cable', "),
         ("backbone --omega 6 --variant frn", "variant must be one of CI, CE"),
+        ("backbone --omega 6 --mode 2 --variant FrE", "the reduced models are of mode 1"),
         ("backbone --omega 6 --format text", 'Choose from: "table", "csv"'),
+        ("animate --beside cable", "linear"),
+        ("animate --height 0.04 --out film.pvd", "give width too, or leave both out"),
         ("animate --out beam.avi", "the ending must be .gif or .mp4"),
         ("explore --out explorer.pdf", "the ending must be .html"),
         ("judge mine --report a.pdf", "the ending must be .html"),
         ("judge mine --json a.txt", "the ending must be .json"),
+        ("judge none", "name that of the submission"),
         ("judge mine --run", "Unknown option: --run"),
         ("judge mine --case S9", "there is no case 'S9': it must be L, S1"),
         # Sweeps, meshes and ramps.
@@ -84,6 +92,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         (f"{RESPOND}--omega 6 --tip-force 0", "--tip-force 0 is no load"),
         (f"{RESPOND}--tip-force 1 --damping-ratio 0.1", "rotation speed in rad/s with --omega"),
         (f"{RESPOND}--omega 6 --tip-force 1", "is undamped"),
+        (f"{RESPOND}--omega 6 --tip-force 1 --damping-ratio 0", "has no end at resonance"),
         (f"{RESPOND}--rippel 1", "Did you mean --ripple?"),
         (f"{RESPOND}--gravity --damping-ratio -0.1", "ratio must not be negative"),
         (f"{GRAVITY}--omega 6", "leave --omega out"),

@@ -83,8 +83,6 @@ def test_the_file_reaches_the_other_commands(call, config, reached):
     assert (entry.step, options["duration"], options["spin_up"].omega) == (0.01, 8.0, 4.0)
     # The diagram goes to twice the speed; the Explorer has sliders.
     assert reached(analytic, "campbell", "campbell")[0][1][-1] == 8.0
-    code, _, error = call("explore", "--config", config)
-    assert (code, "leave [motion] out of the file" in error) == (2, True)
 
 
 def test_loads_and_damping_of_the_file_and_of_options(call, config, tmp_path, reached):
