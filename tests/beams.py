@@ -22,6 +22,10 @@ REED_TOML = (
     "[beam]\nlength = 0.05\narea = 2.5e-6\nsecond_moment = 5.208e-14\n"
     "youngs_modulus = 2.1e11\ndensity = 7850\n"
 )
+BEAM_TOML = (
+    "[beam]\nlength = 8.0\naxial_stiffness = 5e6\nbending_stiffness = 566.0\n"
+    "mass_per_length = 0.2\n"
+)
 BLADE_TOML = (
     "[blade]\nlength = 8.0\n\n[blade.section]\naxial_stiffness = 5e6\n"
     "bending_stiffness = 566.0\nmass_per_length = 0.2\n"

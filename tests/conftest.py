@@ -81,6 +81,25 @@ def call(capsys):
     return run
 
 
+@pytest.fixture
+def reached(call, monkeypatch):
+    """Return a function: what a command hands to a function that would take long."""
+
+    def arguments(room, name, *command):
+        seen = []
+
+        def stopped(*given, **options):
+            seen.append((given, options))
+            raise KeyboardInterrupt
+
+        with monkeypatch.context() as patch:
+            patch.setattr(room, name, stopped)
+            assert call(*command)[0] == 130
+        return seen[0]
+
+    return arguments
+
+
 @pytest.fixture(scope="session")
 def submitted():
     """Return a function that makes a submission of L and S1, its q(t) changed by a function."""

@@ -2,8 +2,6 @@
 
 import re
 
-import pytest
-
 from analytic import VARIANTS
 from rotbeam_exu.cli import _COMMANDS, documented
 from rotbeam_exu.fem.elements import FORMULATIONS
@@ -36,39 +34,7 @@ def test_the_help_of_each_command(call, monkeypatch):
         assert set(documented(command)[1]) <= {line.strip() for line in out.splitlines()}
     assert "--gravity [FLOAT]" in helps["respond"][1]
     for command, names in (
-        ("run", FORMULATIONS),
-        ("sweep", FORMULATIONS),
-        ("verify", FORMULATIONS),
+        ("run", FORMULATIONS), ("sweep", FORMULATIONS), ("verify", FORMULATIONS),
         ("backbone", VARIANTS),
-    ):
+    ):  # fmt: skip
         assert set(names) <= set(re.findall(r"\w+", helps[command][1]))
-
-
-@pytest.mark.parametrize(
-    ("arguments", "name"),
-    [
-        (("respond", "--to", "2"), "--from"),
-        (("figure",), "NUMBER"),
-        (("run", "--omega"), "--omega"),
-    ],
-)
-def test_what_is_missing_is_named_and_where_it_is_explained(call, arguments, name):
-    code, _, error = call(*arguments)
-    assert code == 2
-    assert f"{name} requires an argument. rotbeam {arguments[0]} --help explains it" in error
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (("verify", "--element", "cabel"), "unknown element 'cabel'; known are 'cable', "),
-        (("backbone", "--omega", "6", "--variant", "frn"), "variant must be one of CI, CE"),
-        (("backbone", "--omega", "6", "--format", "text"), 'Choose from: "table", "csv"'),
-        (("stability", "--section", "tub"), 'Choose from: "rectangle"'),
-        (("figure", "8", "--style", "House"), "house"),
-    ],
-)
-def test_an_unknown_name_is_refused_by_those_that_are_known(call, arguments, sentence):
-    code, _, error = call(*arguments)
-    assert code == 2
-    assert sentence in error

@@ -1,12 +1,10 @@
 """Tables in a narrow terminal: titles and texts are folded, and every number is whole."""
 
+import math
+
 import pytest
 
-from rotbeam_exu.verification import verify as room
-from rotbeam_exu.verification.convergence import converged
-from rotbeam_exu.verification.judgement import THRESHOLDS, Judgement
-from rotbeam_exu.verification.outcomes import found_of
-from rotbeam_exu.verification.submission import Declaration
+from rotbeam_exu.cli.output import print_columns
 
 COMMANDS = [
     ("backbone", "--omega", "6", "--all-variants", "--amplitude", "0.05", "0.2"),
@@ -34,19 +32,9 @@ def test_no_number_is_cut_or_broken(call, monkeypatch, command):
     assert words(call(*command)[1]) == words(wide)
 
 
-def test_the_verdict_tables(call, monkeypatch):
-    runs = converged((40, 80, 160), None, [1.23e-4 + n**-4.0 for n in (40, 80, 160)])
-    found = found_of(runs, tolerance=2e-4, bound=1e-8, where="anywhere")
-    monkeypatch.setattr(
-        room,
-        "verify",
-        lambda entry, **_: Judgement(
-            declaration=Declaration(code=entry.name),
-            findings={"S1": dict.fromkeys(THRESHOLDS, found)},
-            histories={}, sources={}, remarks={}, asked=("S1",),
-        ),
-    )  # fmt: skip
-    monkeypatch.setenv("COLUMNS", "80")
-    code, out, _ = call("verify", "--element", "cable", "--element", "exact")
-    assert code == 0
-    assert out.count("+1e-04") == 2 * len(THRESHOLDS)
+def test_a_zero_at_the_end_of_a_number_is_shown_where_its_neighbors_have_a_digit(capsys):
+    print_columns({"ω_NL": [3.73033, 3.730329], "a": [0.1, 0.05], "±": [1e-9, math.nan]}, "table")
+    rows = [line.split() for line in capsys.readouterr().out.splitlines() if line[0] == "│"]
+    assert [row[1::2] for row in rows] == [
+        ["3.730330", "0.10", "1e-09"], ["3.730329", "0.05", "-"],
+    ]  # fmt: skip

@@ -15,35 +15,12 @@ def run(call, tmp_path, *more, **options):
     return call("run", "--no-figure", "--out", tmp_path / "out", "--force", *flat, *more)
 
 
-def test_a_speed_in_another_unit_is_given_in_radians(call, tmp_path):
-    code, _, error = call("run", "--rpm", "60")
-    assert code == 2
-    unit = float(re.search(r"as --omega, and 1 rpm is (\S+) rad/s", error)[1])
-    assert 60.0 * unit == pytest.approx(6.283185, rel=1e-5)
-    assert "1 hz is 6.28319 rad/s" in call("sweep", "--hz=1.5")[2]
-
-
-def test_at_rest_nothing_oscillates(call, tmp_path, monkeypatch):
-    with monkeypatch.context() as patch:
-        patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))
-        code, _, error = run(call, tmp_path, omega=0)
-    assert code == 2
-    assert "nothing oscillates: take a speed above zero, as 6 rad/s" in error
-
-
 def test_a_step_that_does_not_fit_names_one_that_does(call, tmp_path):
     code, _, error = run(call, tmp_path, step=0.011)
     assert code == 2
     step, duration = re.search(r"try a step of (\S+) s or a duration of (\S+) s", error).groups()
     assert run(call, tmp_path, "--no-exact", step=step)[0] == 0
     assert run(call, tmp_path, "--no-exact", step=0.011, duration=duration)[0] == 0
-
-
-def test_a_duration_too_short_to_measure_names_one_that_is_long_enough(call, tmp_path):
-    code, _, error = run(call, tmp_path, duration=5)
-    assert code == 1
-    enough = float(re.search(r"run for (\S+) s or longer", error)[1])
-    assert run(call, tmp_path, "--no-exact", duration=round(enough + 0.005, 2))[0] == 0
 
 
 def test_the_warnings_of_mesh_and_step_end_with_more_elements_and_smaller_steps(call, tmp_path):
@@ -54,14 +31,6 @@ def test_the_warnings_of_mesh_and_step_end_with_more_elements_and_smaller_steps(
     fine = run(call, tmp_path, elements=16, step=0.002, frame="rotating")
     assert fine[0] == 0
     assert fine[2] == ""
-
-
-def test_more_functions_are_on_offer(call):
-    code, out, _ = call(
-        "backbone", "--omega", "6", "--amplitude", "0.1", "--exact", "--functions", "20"
-    )
-    assert code == 0
-    assert "3.729665" in out
 
 
 def test_a_folder_that_cannot_be_written_is_exchanged_for_another(call, tmp_path, monkeypatch):

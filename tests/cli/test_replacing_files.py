@@ -1,5 +1,7 @@
 """Nothing that was computed is lost: other inputs do not replace it, and failures are kept."""
 
+import re
+
 import pytest
 
 import analytic
@@ -7,19 +9,17 @@ from rotbeam_exu import comparison, explorer, figures, load
 from rotbeam_exu.fem import simulation
 from rotbeam_exu.sweeps import grid
 from rotbeam_exu.verification import verify
+from tests.beams import BEAM_TOML
 
 SHORT = ("--elements", "2", "--step", "0.01", "--duration", "8")
 QUICK = ("--no-figure", "--no-exact")
-BEAM = (
-    "[beam]\nlength = {}\naxial_stiffness = 5e6\nbending_stiffness = 566.0\nmass_per_length = 0.2\n"
-)
 
 
 def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp_path, monkeypatch):
     assert call("run", *SHORT, "--no-exact", "--out", tmp_path)[0] == 0
     assert call("run", *SHORT, *QUICK, "--out", tmp_path)[0] == 0
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
-    (tmp_path / "beam.toml").write_text(BEAM.format(8.0))
+    (tmp_path / "beam.toml").write_text(BEAM_TOML)
     with monkeypatch.context() as patch:
         patch.setattr(simulation, "run_case", lambda *_, **__: pytest.fail("computed first"))
         for options, sentence in (
@@ -45,14 +45,17 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
     assert load(next(tmp_path.glob("*.nc"))).attrs["frame"] == "rotating"
 
 
-def test_a_short_window_keeps_the_run_and_says_where(call, tmp_path):
-    short = (*SHORT[:4], "--duration", "5", "--no-figure", "--out", tmp_path)
-    code, _, error = call("run", *short)
+def test_a_short_window_keeps_the_run_and_says_where_and_how_long_is_enough(call, tmp_path):
+    short = ("run", *SHORT[:4], "--duration", "5", "--no-figure", "--out", tmp_path)
+    code, _, error = call(*short)
     assert code == 1
     kept = tmp_path / "cable-2-omega-6-ramp-3.nc"
     assert f"the run itself is in {kept}" in error
     assert load(kept).attrs["verdict"] == "passed"
     assert kept.with_suffix(".csv").exists()
+    enough = float(re.search(r"run for (\S+) s or longer", error)[1])
+    long = ("--duration", round(enough + 0.005, 2), "--force", "--no-exact")
+    assert call(*short[:5], *long, *short[-3:])[0] == 0
 
 
 def test_a_failed_run_is_kept_and_marked(call, tmp_path):
@@ -91,13 +94,11 @@ def stopped(*_, **__):
 @pytest.mark.parametrize(
     ("command", "room", "name"),
     [
-        ("sweep", grid, "sweep"),
-        ("explore", explorer, "explorer_data"),
-        ("compare", comparison, "figure_14"),
-        ("verify --element cable", verify, "verify"),
+        ("sweep", grid, "sweep"), ("explore", explorer, "explorer_data"),
+        ("compare", comparison, "figure_14"), ("verify --element cable", verify, "verify"),
         ("reference", analytic, "spin_up_response"),
     ],
-)
+)  # fmt: skip
 def test_ctrl_c_says_what_is_kept_or_that_nothing_is(
     call, tmp_path, monkeypatch, command, room, name
 ):

@@ -5,9 +5,10 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 
 from analytic import Damping, ResponseNotReachedError
-from rotbeam_exu import load
+from rotbeam_exu import dataset_of, load
 from rotbeam_exu.cli import respond as job
 from rotbeam_exu.runs.attributes import beam_of
 from tests.beams import BLADE_TOML
@@ -45,17 +46,12 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
         f"{name}.{kind}" for kind in ("nc", "csv", "png", "pdf")
     }
     data, table = load(tmp_path / f"{name}.nc"), pd.read_csv(tmp_path / f"{name}.csv", comment="#")
-    units = {"frequency": " [rad/s]", "phase": " [rad]"}
-    for variable in ("frequency", "amplitude", "phase", "stable"):
-        assert data[variable].to_numpy() == pytest.approx(getattr(folded, variable))
-        title = f"{variable}{units.get(variable, '')}"
-        assert set(table[title]) == set(data[variable].to_numpy())
+    xr.testing.assert_equal(data, dataset_of(folded))
+    assert set(table["phase [rad]"]) == set(folded.phase)
     assert (data["cosine"] - 1j * data["sine"]).to_numpy() == pytest.approx(folded.harmonics)
-    assert data["backbone_frequency"][0].item() == pytest.approx(folded.backbone.omega_n)
     assert beam_of(data.attrs) == folded.beam
     attrs = {"load": "SpeedRipple", "load_size": 0.002, "load_unit": "rad/s", "omega": 6.0}
     assert attrs.items() <= data.attrs.items()
-    assert data.attrs["residual"] == pytest.approx(folded.residual.max())
     assert "numpy" in data.attrs["versions"]
 
 
@@ -71,8 +67,7 @@ def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
     omega = () if kind == "Gravity" else ("--omega", "6")
     code, out, _ = call(
         "respond", *load_option, *omega, "--external-damping", "0.5", "--from", "4.5", "--to", "5",
-        "--points", "2", "--functions", "6", "--inextensible", "--no-figure", "--out",
-        tmp_path,
+        "--points", "2", "--functions", "6", "--inextensible", "--no-figure", "--out", tmp_path,
     )  # fmt: skip
     assert code == 0
     data = load(next(tmp_path.glob("*.nc")))
@@ -82,20 +77,16 @@ def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
     assert ("backbone_frequency" in data) == (kind != "Gravity")
 
 
-def test_the_damping_of_the_file_is_taken_or_replaced(call, tmp_path, monkeypatch):
-    seen = []
-
-    def stopped(blade, *_, **__):
-        seen.append(blade.damping)
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(job.analytic, "forced_response", stopped)
+def test_the_damping_of_the_file_is_taken_or_replaced(reached, tmp_path):
     config = tmp_path / "blade.toml"
     config.write_text(f"{BLADE_TOML}\n[blade.damping]\nbending = 0.02\n")
     drive = ("--omega", "3", "--tip-force", "0.01", "--from", "2", "--to", "2.5", "--out", tmp_path)
-    for options in ((), ("--external-damping", "0.3")):
-        assert call("respond", *drive, "--config", config, *options)[0] == 130
-    assert seen == [Damping(bending=0.02), Damping(external=0.3)]
+    own, other = (
+        reached(job.analytic, "forced_response", "respond", *drive, "--config", config, *options)
+        for options in ((), ("--external-damping", "0.3"))
+    )
+    assert own[0][0].damping == Damping(bending=0.02)
+    assert other[0][0].damping == Damping(external=0.3)
 
 
 def answered(call, folder, section, rest, *options):
@@ -143,40 +134,12 @@ def test_a_known_section_tells_whether_the_response_leaves_the_plane(
         assert (data["growth_rate"] > 0.0).to_numpy().tolist() == [False] * 11 + [True] * 3
 
 
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (("--omega", "6"), "--distributed-force.* or --gravity, got none"),
-        (("--gravity", "--ripple", "0.1"), "give one load, .* got --ripple and --gravity"),
-        (("--omega", "6", "--tip-force", "0"), "--tip-force 0 is no load"),
-        (("--tip-force", "1", "--damping-ratio", "0.1"), "rotation speed in rad/s with --omega"),
-        (("--gravity", "--omega", "6", "--damping-ratio", "0.1"), "leave --omega out"),
-        (("--omega", "6", "--tip-force", "1"), "is undamped, .* give --damping-ratio or"),
-        (("--gravity", "--damping-ratio", "0.1", "--external-damping", "1"), "not both"),
-        (("--gravity", "--damping-ratio", "-0.1"), "ratio must not be negative"),
-        (("--gravity", "--damping-ratio", "0.1", "--to", "3"), "--to must be above --from, got 3"),
-        (("--gravity", "--damping-ratio", "0.1", "--points", "1"), "points must be at least 2"),
-        (("--rippel", "1"), "Did you mean --ripple?"),
-    ],
-)
-def test_bad_input_is_one_sentence(call, tmp_path, arguments, sentence):
-    to = () if "--to" in arguments else ("--to", "4")
-    code, _, error = call("respond", "--from", "3.6", *to, *arguments, "--out", tmp_path / "out")
-    assert code == 2
-    assert re.search(sentence, error.replace("?", r"\?") if "?" in sentence else error)
-    assert len(error.strip().splitlines()) == 1
-    assert not (tmp_path / "out").exists()
-
-
 def test_without_damping_a_zero_lets_through_what_meets_no_resonance(call, tmp_path):
     quiet = ("--omega", "6", "--tip-force", "0.1", "--points", "2", "--no-figure",
              "--out", tmp_path)  # fmt: skip
     assert "0 for none" in call("respond", *quiet, "--from", "1", "--to", "2")[2]
     none = (*quiet, "--damping-ratio", "0")
     assert call("respond", *none, "--from", "1", "--to", "2")[0] == 0
-    code, _, error = call("respond", *none, "--from", "3", "--to", "4")
-    assert code == 2
-    assert "without damping the response has no end at resonance" in error
 
 
 def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatch, folded):

@@ -69,16 +69,3 @@ def test_a_tapered_blade_on_the_default_mesh_is_told(call, tmp_path):
     assert abs(off[1]) > 1e-4
     assert np.isnan(data["exact_error"]).all()
     assert int(data["recommended_elements"]) > 32
-
-
-def test_what_it_refuses(call, tmp_path):
-    for arguments, sentence in (
-        (("--omega", "0"), "nothing oscillates"),
-        (("--elements", "1"), "elements must be at least 2"),
-        (("--tolerance", "0"), "tolerance"),
-        (("--duration", "4"), "run for"),  # too short to be measured
-    ):
-        run = ("--step", "4e-3", "--jobs", "1", "-o", tmp_path, "--cache", tmp_path)
-        code, _, error = call("converge", *run, *arguments)
-        assert code
-        assert sentence in error

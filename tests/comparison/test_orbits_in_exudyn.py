@@ -5,7 +5,7 @@ import pytest
 
 from analytic import SteadyRotation, periodic_orbits
 from rotbeam_exu import simulate, steady_oscillation
-from rotbeam_exu.fem.elements import Ancf3, Exact, Substructures
+from rotbeam_exu.fem.elements import Ancf3, Substructures
 
 
 @pytest.mark.parametrize(
@@ -22,14 +22,9 @@ def test_exudyn_returns_after_the_predicted_period(beam, omega, amplitude):
     period = 2.0 * np.pi / backbone.frequency[0]
     steps = 1000
     run = simulate(
-        beam,
-        SteadyRotation(omega=omega),
-        elements=32,
-        step=period / steps,
-        duration=4.0 * period,
-        frame="rotating",
-        initial_state=lambda x: backbone.state(0, x, phase=0.3),
-    )
+        beam, SteadyRotation(omega=omega), elements=32, step=period / steps, duration=4.0 * period,
+        frame="rotating", initial_state=lambda x: backbone.state(0, x, phase=0.3),
+    )  # fmt: skip
     q = run["q"].to_numpy() / beam.length
     start, after = q[0], q[(q.size - 1) // 4]
     # Asked: 1e-3 of the amplitude, 1e-5 of the frequency. Mesh and step leave 4e-6 of it.
@@ -43,13 +38,11 @@ def test_exudyn_returns_after_the_predicted_period(beam, omega, amplitude):
 
 @pytest.mark.parametrize(
     ("model", "close"),
-    # Pinned frames of this number are off by their own order, the others by mesh and shear. The
+    # Pinned frames of this number are off by their own order, the other by mesh and shear. The
     # cable returns after a period above, exact elements stay on their orbit in test_shear.
-    [pytest.param("cable", 3e-3, marks=pytest.mark.slow),
-     pytest.param(Exact(nodes=3), 3e-3, marks=pytest.mark.slow),
-     (Ancf3(), 3e-3), (Substructures(frame="pinned"), 2e-2)],
+    [(Ancf3(), 3e-3), (Substructures(frame="pinned"), 2e-2)],
     ids=str,
-)  # fmt: skip
+)
 def test_a_quarter_of_a_period(beam, model, close):
     """Sections start without shear, which then rings fast: hence the short step."""
     orbit = periodic_orbits(beam, 6.0, [0.1])

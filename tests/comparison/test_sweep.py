@@ -18,7 +18,7 @@ import xarray as xr
 
 from analytic import SpinUp
 from analytic.input_checks import RotbeamWarning
-from rotbeam_exu import SimulationError, load, save, simulate, steady_oscillation, sweep
+from rotbeam_exu import SimulationError, simulate, steady_oscillation, sweep
 from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.sweeps import grid as sweeps
@@ -71,14 +71,6 @@ def test_a_sweep_is_its_runs(beam, serial):
     assert here["amplitude"].item() == steady.amplitude
     assert here["omega_n"].item() == Linearization.of(beam, 6.0, "cable", 2).frequencies(1)[0]
     assert here["verdict"].item() == "passed"
-
-
-def test_a_sweep_in_a_file_says_what_was_run(serial, tmp_path):
-    kept = load(save(serial, tmp_path / "sweep.nc"))
-    xr.testing.assert_identical(kept, serial)
-    assert kept.attrs["element"] == "cable"
-    assert kept.attrs["step"] == 1e-2
-    assert json.loads(kept.attrs["versions"])["exudyn"]
 
 
 def test_processes_give_the_same_bits(beam, serial):

@@ -1,14 +1,13 @@
-"""Every block of code in the pages runs, as test_readme.py does for the README; commands exist."""
+"""Every block of code in the README and the pages runs; commands exist."""
 
-import importlib.util
 import os
 import re
 import shlex
-import sys
 from pathlib import Path
 
 import pytest
 
+from docs._ext import blocks
 from rotbeam_exu.cli import app
 
 ROOT = Path(__file__).parents[2]
@@ -22,22 +21,10 @@ SLOW = ("theory/continuum", "theory/harmonic_balance", "theory/out_of_plane", "t
 SLOW_PAGES = {ROOT / "docs" / f"{name}.md" for name in SLOW}
 
 
-def load(name):
-    """A module of docs/_ext, which is no package."""
-    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / "_ext" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-blocks = load("blocks")
-
-
 def page_cases(language, slow=()):
     for page in PAGES:
         found = list(blocks.fenced(page.read_text(encoding="utf-8")))
-        if page.name != "README.md" and any(block.language == language for block in found):
+        if any(block.language == language for block in found):
             marks = [pytest.mark.slow] if page in slow else []
             yield pytest.param(page, id=str(page.relative_to(ROOT)), marks=marks)
 

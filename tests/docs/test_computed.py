@@ -4,37 +4,29 @@ from pathlib import Path
 
 import pytest
 
+from docs._ext import blocks
+
 EXT = Path(__file__).parents[2] / "docs" / "_ext"
 
 
-@pytest.fixture
-def blocks(monkeypatch):
-    monkeypatch.syspath_prepend(str(EXT))
-    import blocks
-
-    return blocks
-
-
-def test_fenced_blocks_are_found_with_their_line(blocks):
+def test_fenced_blocks_are_found_with_their_line():
     page = (
         "text\n\n```python\na = 1\n```\n\n"
         "```{computed}\n:show:\nprint(a)\n```\n\n```text\nno\n```\n"
     )
     assert list(blocks.fenced(page)) == [
-        ("python", "a = 1\n", 4),
-        ("{computed}", "print(a)\n", 8),
-        ("text", "no\n", 13),
-    ]
+        ("python", "a = 1\n", 4), ("{computed}", "print(a)\n", 8), ("text", "no\n", 13),
+    ]  # fmt: skip
 
 
-def test_blocks_share_their_names_and_print_tables(blocks, tmp_path):
+def test_blocks_share_their_names_and_print_tables(tmp_path):
     names = blocks.names(tmp_path)
     assert blocks.printed("a = 2", names, "here") == ""
     table = blocks.printed("table(['x', '|y|'], [[a, a**2]])", names, "here")
     assert table == "| x | \\|y\\| |\n| --- | --- |\n| 2 | 4 |\n"
 
 
-def test_a_warning_in_a_block_is_an_error(blocks, tmp_path):
+def test_a_warning_in_a_block_is_an_error(tmp_path):
     with pytest.raises(UserWarning, match="careful"):
         blocks.printed("import warnings; warnings.warn('careful')", blocks.names(tmp_path), "here")
 

@@ -33,9 +33,3 @@ SLOW = {
 def test_examples(name):
     result = doctest.testmod(importlib.import_module(name), optionflags=doctest.ELLIPSIS)
     assert result.failed == 0
-
-
-def test_there_are_examples():
-    finder = doctest.DocTestFinder(exclude_empty=True)
-    examples = [t for n in MODULES for t in finder.find(importlib.import_module(n)) if t.examples]
-    assert examples

@@ -8,19 +8,15 @@ from docs.sentences import MOST_WORDS, PAGES, ROOT, long_sentences, prose, words
 
 # One's own word: what the field says.
 OWN_WORDS = {
-    r"bars?": "uncertainty",
-    r"beside": "compared with, next to, near",
-    r"held against": "compared with",
-    r"tells?|told": "shows, determines, reports",
-    r"truths?": "reference solution",
-    r"what is left": "residual vibration",
-    r"the pull": "tension",
+    r"bars?": "uncertainty", r"beside": "compared with, next to, near",
+    r"held against": "compared with", r"tells?|told": "shows, determines, reports",
+    r"truths?": "reference solution", r"what is left": "residual vibration", r"the pull": "tension",
     r"ours (?:is|are)": "we, this package",
     r"leaves? (?:nothing|almost nothing|least|less)": "the residual amplitude is ...",
     r"fl(?:y|ies) apart": "diverges",
     r"colour\w*|fibres?|licence|behaviour|centre\w*|grey|\w*metres?": "American spelling",
     r"judgement\w*|neighbour\w*|modelled|labelled": "American spelling",
-}
+}  # fmt: skip
 
 
 def own_words(text):
@@ -48,3 +44,16 @@ def test_both_can_fail():
     assert long_sentences(f"- item\n- {allowed}.") == [f"- {allowed}."]
     assert own_words("The `bar` of $bar$ and barely.") == []
     assert len(own_words("The bars are held\nagainst the truth, in metres.")) == 4
+
+
+def cited(page):
+    found = re.findall(r"\{cite:[pt]\}`([\w,]+)`", page.read_text(encoding="utf-8"))
+    return {key for keys in found for key in keys.split(",")}
+
+
+def test_each_citation_has_one_entry():
+    bibliography = (ROOT / "docs" / "references.bib").read_text(encoding="utf-8")
+    entries = re.findall(r"^@\w+\{(\w+),", bibliography, re.MULTILINE)
+    assert len(entries) == len(set(entries))
+    missing = {page.name: cited(page) - set(entries) for page in (ROOT / "docs").rglob("*.md")}
+    assert {name: keys for name, keys in missing.items() if keys} == {}

@@ -2,13 +2,11 @@
 
 import math
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 import pytest
-from exudyn.itemInterface import ObjectANCFCable2D
 from scipy import optimize
 
 from analytic import (
@@ -25,7 +23,7 @@ from analytic import (
 )
 from analytic.reduced.any_blade import blade_oscillator
 from rotbeam_exu import kicked, natural_frequencies, simulate, steady_oscillation
-from rotbeam_exu.fem.elements import Cable, Chain
+from rotbeam_exu.fem.elements import Cable
 
 DOCS = Path(__file__).parents[2] / "docs"
 _GRAVITY = 9.81  # [m/s²]
@@ -40,22 +38,10 @@ class OtherQuadrature(Cable):
     name: ClassVar[str] = "other quadrature"
 
     def lay(self, mbs, beam, elements):
-        length = beam.length / elements
-        nodes = self.add_nodes(mbs, np.linspace(0.0, beam.length, elements + 1))
-        bodies = tuple(
-            mbs.AddObject(
-                ObjectANCFCable2D(
-                    nodeNumbers=list(pair),
-                    length=length,
-                    massPerLength=beam.mass_per_length,
-                    bendingStiffness=beam.bending_stiffness,
-                    axialStiffness=beam.axial_stiffness,
-                    useReducedOrderIntegration=self.quadrature,
-                )
-            )
-            for pair in pairwise(nodes)
-        )
-        return Chain(nodes=nodes, bodies=bodies)
+        chain = super().lay(mbs, beam, elements)
+        for body in chain.bodies:
+            mbs.SetObjectParameter(body, "useReducedOrderIntegration", self.quadrature)
+        return chain
 
 
 def says(page, words):

@@ -37,14 +37,9 @@ def data():
         patch.setattr(room, "worker_pool", lambda *_: nullcontext(AtOnce()))
         warnings.simplefilter("ignore", RotbeamWarning)
         return explorer_data(
-            omegas=OMEGAS,
-            amplitudes=AMPLITUDES,
-            finite_element_omegas=(6.0,),
-            ramp_times=(3.0, 2.5),
-            exact_ramp_times=RAMPS,
-            elements=4,
-            step=4e-3,
-        )
+            omegas=OMEGAS, amplitudes=AMPLITUDES, finite_element_omegas=(6.0,),
+            ramp_times=(3.0, 2.5), exact_ramp_times=RAMPS, elements=4, step=4e-3,
+        )  # fmt: skip
 
 
 @pytest.fixture(scope="session")
@@ -145,17 +140,25 @@ def settle(page):
     page.evaluate("new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))")
 
 
+def slide(page, **places):
+    """Move sliders by name."""
+    for name, place in places.items():
+        page.locator(f"#{name}").evaluate(
+            "(e, v) => { e.value = v; e.dispatchEvent(new Event('input')); }", place
+        )
+    settle(page)
+
+
 @pytest.fixture
 def at():
     """Return a function that sets the sliders of a page to a speed and an amplitude."""
 
     def set_sliders(page, omega, a):
-        for name, grid, value in (("omega", OMEGAS, omega), ("amplitude", AMPLITUDES, a)):
-            index = int(np.argmin(np.abs(np.subtract(grid, value))))
-            page.locator(f"#{name}").evaluate(
-                "(e, v) => { e.value = v; e.dispatchEvent(new Event('input')); }", index
-            )
-        settle(page)
+        nearest = [
+            int(np.argmin(np.abs(np.subtract(grid, value))))
+            for grid, value in ((OMEGAS, omega), (AMPLITUDES, a))
+        ]
+        slide(page, omega=nearest[0], amplitude=nearest[1])
 
     return set_sliders
 

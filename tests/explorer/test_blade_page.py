@@ -11,15 +11,9 @@ from rotbeam_exu.explorer import explorer_data, explorer_page
 def test_a_blade_has_a_page_of_its_own(open_page, drawn, beam, tmp_path):
     blade = beam.with_hub_radius(0.5 * beam.length).with_tip_mass(0.5 * beam.mass)
     data = explorer_data(
-        blade,
-        omegas=(0.0, 6.0, 12.0),
-        amplitudes=(0.1, 0.2, 0.3),
-        finite_element_omegas=(6.0,),
-        ramp_times=(8.0,),
-        exact_ramp_times=(8.0,),
-        elements=4,
-        jobs=2,
-    )
+        blade, omegas=(0.0, 6.0, 12.0), amplitudes=(0.1, 0.2, 0.3), finite_element_omegas=(6.0,),
+        ramp_times=(8.0,), exact_ramp_times=(8.0,), elements=4, jobs=2,
+    )  # fmt: skip
     path = tmp_path / "blade.html"
     path.write_text(explorer_page(data), encoding="utf-8")
     page = open_page(path.as_uri())

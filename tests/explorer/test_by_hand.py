@@ -5,7 +5,7 @@ import re
 import pytest
 
 from analytic import periodic_orbits, reduced_model
-from tests.explorer.conftest import turn_to
+from tests.explorer.conftest import settle, turn_to
 
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 
@@ -69,8 +69,7 @@ def test_a_chart_is_a_slider_whose_numbers_are_seen_and_said(page, at, beam):
     at(page, 6.0, 0.3)
     page.locator("#softening > svg").focus()
     page.keyboard.press("ArrowLeft")
-    settle = "new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))"
-    page.evaluate(settle)
+    settle(page)
     assert page.locator("#omega-value").inner_text() == "4.00 rad/s"
     value = f"{reduced_model(beam, 4.0, 'FrE').lambda_omega:.5f}"
     assert re.search(rf"FrE\s*{value}", page.locator("#softening .readout").inner_text())
@@ -80,7 +79,7 @@ def test_a_chart_is_a_slider_whose_numbers_are_seen_and_said(page, at, beam):
     page.locator("#backbone > svg").focus()
     assert not page.locator("#softening .readout").is_visible()
     page.keyboard.press("End")
-    page.evaluate(settle)
+    settle(page)
     assert page.locator("#amplitude-value").inner_text() == "0.60"
     assert "a = 0.60" in page.locator("#backbone .readout").inner_text()
     page.wait_for_function("document.getElementById('said').textContent.includes('a = 0.60')")
@@ -102,15 +101,3 @@ def test_the_spin_up_is_read_without_a_mouse(page, at, data):
     said = page.locator("#spin-up > svg").get_attribute("aria-valuetext")
     assert said == f"t = {time:.2f} s, q/L {value}"
     assert page.locator("#ramp-value").inner_text() == "3 s"
-
-
-def test_the_speed_is_ruled_on_its_axis(page, at):
-    for omega in (0.0, 6.0, 12.0):
-        at(page, omega, 0.2)
-        label = page.locator("#softening text.here")
-        assert label.text_content() == f"ω = {omega:.2f}"
-        rule = page.locator("#softening line.now").bounding_box()
-        box = label.bounding_box()
-        assert rule["x"] == pytest.approx(page.evaluate(f"softening.x({omega})") + page.locator(
-            "#softening > svg").bounding_box()["x"], abs=1.0)  # fmt: skip
-        assert box["x"] <= rule["x"] <= box["x"] + box["width"]

@@ -10,13 +10,18 @@ from rotbeam_exu import explorer
 from rotbeam_exu.cli import main
 from rotbeam_exu.explorer import data as room
 from rotbeam_exu.explorer import explorer_data, explorer_page
+from tests.beams import REED_TOML
 
 
-def test_uneven_sliders_are_refused():
-    with pytest.raises(ValueError, match="omegas must ascend in equal steps"):
-        explorer_data(omegas=[0.0, 1.0, 3.0])
-    with pytest.raises(ValueError, match="amplitudes must ascend in equal steps"):
-        explorer_data(amplitudes=[0.2, 0.1])
+def test_uneven_sliders_and_ramps_that_outlast_the_page_are_refused():
+    for options, sentence in (
+        ({"omegas": [0.0, 1.0, 3.0]}, "omegas must ascend in equal steps"),
+        ({"amplitudes": [0.2, 0.1]}, "amplitudes must ascend in equal steps"),
+        *(({"exact_ramp_times": wrong}, "exact_ramp_times must ascend and end before")
+          for wrong in ([3.0, 2.0], [3.0, 15.0], [])),
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match=sentence):
+            explorer_data(**options)
 
 
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
@@ -48,21 +53,16 @@ def test_nothing_in_the_data_ends_the_script(data):
     assert json.loads(document)["notes"][0] == "</script><b>"
 
 
-def test_it_writes_one_page_and_says_where(tmp_path, capsys, monkeypatch):
+def test_it_writes_one_page_and_says_where(call, tmp_path, monkeypatch):
+    """Of a file's beam one of its own name."""
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(explorer, "explorer_data", lambda *_, **__: None)
     monkeypatch.setattr(explorer, "explorer_page", lambda _: "<!doctype html>ω")
-    out = tmp_path / "site" / "explorer.html"
-    main(["explore", "--out", str(out)])
-    assert out.read_text(encoding="utf-8") == "<!doctype html>ω"
-    assert "explorer.html" in capsys.readouterr().out
-    assert [path.name for path in out.parent.iterdir()] == ["explorer.html"]
-
-
-def test_another_ending_is_refused_before_any_work(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(explorer, "explorer_data", lambda *_, **__: pytest.fail("computed first"))
-    code, _, error = call("explore", "--out", tmp_path / "explorer.pdf")
-    assert code == 2
-    assert "the ending must be .html" in error
+    assert "site/explorer.html" in call("explore", "--out", "site/explorer.html")[1]
+    (page,) = (tmp_path / "site").iterdir()
+    assert page.read_text(encoding="utf-8") == "<!doctype html>ω"
+    (tmp_path / "reed.toml").write_text(REED_TOML)
+    assert "explorer-reed.html" in call("explore", "--config", "reed.toml")[1]
 
 
 @pytest.mark.slow

@@ -10,12 +10,9 @@ from rotbeam_exu.explorer import explorer_page
 pytestmark = pytest.mark.slow
 
 STATES = [
-    "",
-    "omega=0&a=0.05&hide=",
-    "omega=12&a=0.6&scale=all&norm=exact&hide=",
-    "omega=4&a=0.2&scale=close&norm=exact&hide=exact.FrM5.FE",
-    "omega=6&a=0.45&scale=all&hide=",
-]
+    "", "omega=0&a=0.05&hide=", "omega=12&a=0.6&scale=all&norm=exact&hide=",
+    "omega=4&a=0.2&scale=close&norm=exact&hide=exact.FrM5.FE", "omega=6&a=0.45&scale=all&hide=",
+]  # fmt: skip
 # Boxes of letters reach above and below what is drawn: two pixels may be shared.
 OVERLAPS = """() => {
     const seen = e => e.checkVisibility({visibilityProperty: true, opacityProperty: true});
@@ -85,12 +82,23 @@ def test_nothing_overprints(open_page, url, width):
     assert page.evaluate(BEYOND) == []
 
 
-def test_on_a_phone_the_charts_begin_early(open_page, url):
+def test_on_a_phone_the_charts_begin_early_and_the_table_is_folded_above_them(open_page, url):
     page = open_page(url, phone=True)
     header, controls = (
         page.locator(one).bounding_box()["height"] for one in ("header", ".controls")
     )
     assert header + controls < 0.2 * 844
+    table, charts = page.locator("#rows"), page.locator(".charts")
+    assert not table.is_visible()
+    fold = page.locator(".numbers > summary")
+    assert fold.bounding_box()["y"] < charts.bounding_box()["y"] < 0.35 * 844
+    fold.tap()
+    assert table.is_visible()
+    page.locator(".letters > summary").press("Enter")
+    words = dict(zip(page.locator("dt").all_inner_texts(), page.locator("dd").all_inner_texts(),
+                     strict=True))  # fmt: skip
+    assert words["FrI"] == "rotating mode, inextensible (paper)"
+    assert page.evaluate(OVERLAPS) == []
     page.evaluate("scrollTo(0, 1000)")
     assert page.locator(".controls").bounding_box()["y"] == pytest.approx(0.0, abs=1.0)
     assert controls < 0.15 * 844  # what stays while the page is scrolled
@@ -200,18 +208,3 @@ def test_on_paper_charts_are_whole_and_letters_are_words(open_page, url):
     page.evaluate("dispatchEvent(new Event('afterprint'))")
     assert not page.locator("#letters dd").first.is_visible()
     assert page.locator(".plot > svg[viewBox]").count() == 0
-
-
-def test_on_a_phone_the_table_is_folded_above_the_charts(open_page, url):
-    page = open_page(url, phone=True)
-    table, charts = page.locator("#rows"), page.locator(".charts")
-    assert not table.is_visible()
-    fold = page.locator(".numbers > summary")
-    assert fold.bounding_box()["y"] < charts.bounding_box()["y"] < 0.35 * 844
-    fold.tap()
-    assert table.is_visible()
-    page.locator(".letters > summary").press("Enter")
-    words = dict(zip(page.locator("dt").all_inner_texts(), page.locator("dd").all_inner_texts(),
-                     strict=True))  # fmt: skip
-    assert words["FrI"] == "rotating mode, inextensible (paper)"
-    assert page.evaluate(OVERLAPS) == []

@@ -93,12 +93,8 @@ def test_histories_lie_on_the_exact_one_in_any_unit(page, at, drawn, beam):
     times = np.linspace(0.0, 12.0, 241)
     q = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), times, tolerance=1e-5).q / 8.0
     for heading, over in (
-        ("q [m]", 8.0),
-        ("q", 8.0),
-        ("q/L", 1.0),
-        ("q [L]", 1.0),
-        ("q [mm]", 8e3),
-    ):
+        ("q [m]", 8.0), ("q", 8.0), ("q/L", 1.0), ("q [L]", 1.0), ("q [mm]", 8e3),
+    ):  # fmt: skip
         both = zip(times.tolist(), (over * q).tolist(), strict=True)
         rows = "".join(f"{t!r},{x!r}\n" for t, x in both)
         choose(page, ("mine.csv", f"time [s],{heading}\n{rows}"))

@@ -2,14 +2,13 @@
 
 import csv
 import io
-import struct
 import xml.etree.ElementTree as ET
-import zlib
 
 import numpy as np
 import pytest
+from PIL import Image
 
-from analytic import periodic_orbits, reduced_model
+from analytic import periodic_orbits
 
 pytestmark = pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
 SVG = "{http://www.w3.org/2000/svg}"
@@ -48,10 +47,6 @@ def test_tables_are_the_data(page, at, beam, data):
     exact = periodic_orbits(beam, 6.0, amplitudes)
     # A series through sixteen orbits.
     np.testing.assert_allclose(columns["omega_NL exact [rad/s]"][1:], exact.frequency, rtol=1e-6)
-    model = reduced_model(beam, 6.0, "FrE")
-    wanted = model.frequency(model.first_harmonic(amplitudes))
-    # The page holds the first harmonics in single precision.
-    np.testing.assert_allclose(columns["omega_NL FrE [rad/s]"][1:], wanted, rtol=1e-8)
     here = data.sel(fe_omega=6.0)
     for column, variable in (("a", "fe_amplitude"), ("omega_NL", "fe_frequency")):
         unit = "-" if column == "a" else "rad/s"
@@ -104,19 +99,12 @@ def test_a_drawing_carries_its_styles_and_stands_alone(open_page, url, dark):
 def test_a_picture_is_three_times_as_sharp(page):
     name, content = saved(page, "backbone", "PNG")
     assert name == "backbone-omega6-a0.3.png"
-    assert content[:8] == b"\x89PNG\r\n\x1a\n"
-    size = struct.unpack(">II", content[16:24])
+    picture = Image.open(io.BytesIO(content), formats=["PNG"])
     box = page.locator("#backbone > svg").bounding_box()
     # Over the drawing its title, below it what is said of it.
-    assert size[0] == pytest.approx(3.0 * box["width"], abs=1.0)
-    assert 26.0 + 15.0 < size[1] / 3.0 - box["height"] < 26.0 + 60.0
-    body, at = b"", 8
-    while at < len(content):
-        (count,) = struct.unpack(">I", content[at : at + 4])
-        if content[at + 4 : at + 8] == b"IDAT":
-            body += content[at + 8 : at + 8 + count]
-        at += 12 + count
-    assert len(set(zlib.decompress(body))) > 50  # not an empty sheet
+    assert picture.width == pytest.approx(3.0 * box["width"], abs=1.0)
+    assert 26.0 + 15.0 < picture.height / 3.0 - box["height"] < 26.0 + 60.0
+    assert len(set(picture.convert("L").tobytes())) > 50  # not an empty sheet
 
 
 def test_a_saved_chart_says_what_its_marks_are(open_page, page):

@@ -74,10 +74,3 @@ def test_mass_is_that_of_a_blade_that_tapers(beam):
     nodes[:, 1] = nodes[:, 2] = np.linspace(0.0, beam.length, 9) ** 2
     found = nodes.ravel() @ mass_matrix(Ancf3(), blade, 4) @ nodes.ravel()
     assert found == pytest.approx(beam.length * (both * x**4).integ()(1.0), rel=1e-13)
-
-
-def test_a_taper_has_the_frequencies_of_the_exact_blade(beam):
-    """Shear and rotary inertia are of the order of μ times squares of the mode's number."""
-    blade = beam.with_hub_radius(0.8).with_taper(0.3, 0.5).with_tip_mass(0.1)
-    plain = natural_frequencies(blade, 6.0, element="ancf3", count=2)
-    assert plain == pytest.approx(linear_modes(blade, 6.0, 2).frequencies, rel=5e-5)

@@ -42,10 +42,7 @@ def in_space(blade, **options):
         ({"step": 0.2}, "ramp_time 3 s holds 15 steps of 0.2 s, .* take a step of 0.15 s or less"),
         ({"duration": -1.0}, "duration must be positive"),
         ({"duration": 2.0}, "duration 2 s ends before the steady rotation"),
-        (
-            {"element": "cabel"},
-            "unknown element 'cabel'; known are 'cable', .*'space_exact'",
-        ),
+        ({"element": "cabel"}, "unknown element 'cabel'; known are 'cable', .*'space_exact'"),
         ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
         # Blades that an element does not model.
         ({"beam": BEAM.with_setting_angle(0.3)}, "the cosine 0.9553: take frame='rotating'"),
@@ -97,9 +94,6 @@ def test_natural_frequencies_refuse(beam):
         natural_frequencies(beam, -1.0)
     with pytest.raises(ValueError, match="count = 9 is more than the 5 modes"):
         natural_frequencies(beam, 1.0, elements=1, count=9)
-
-
-def test_a_speed_in_rpm_is_noticed(beam):
     with pytest.warns(RotbeamWarning, match="40 rad/s is 14 times .* rpm"):
         natural_frequencies(beam, 40.0, elements=32)
 

@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from analytic import Beam, Blade, Damping, Ellipse, Rectangle, Section
-from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.files.beam_file import load_beam, load_run_file
 from rotbeam_exu.runs.attributes import beam_attributes, beam_of
 from tests.beams import BLADE_TOML
 
@@ -104,6 +104,19 @@ BAD = [
     (GOOD.encode("utf-16"), "not valid TOML"),
     (b"\0\0\0", "not valid TOML"),
 ]
+# With motion, numerics and loads.
+BAD += [
+    ("[motion]\nomega = -1", r"\[motion\]: omega must"),
+    ("[motion]\nomega = '60rpm'", "omega must be a number in rad/s, got '60rpm'"),
+    ("[motion]\nramp_time = 'long'", r"\[motion\]: ramp_time must be a number"),
+    ("[numerics]\nelements = 2.5", r"\[numerics\]: elements must be a whole number"),
+    ("[numerics]\nelement = 3", r"\[numerics\]: element must be a name in quotes, got 3"),
+    ("motion = 3", r"write \[motion\] as a table"),
+    ("loads = 3", 'write each ..loads.. as a table, with kind = "Gravity"'),
+    ("[[loads]]\nkind = 'Storm'", "..loads..: 'Storm' is no known Load"),
+    ("[[loads]]\nkind = 'TipForce'\nsize = 1.0", "..loads..: this is no TipForce"),
+    ("[movement]\nomega = 6", "unknown table or key 'movement'"),
+]
 CHANGED = [
     ("hub_radius", "hub_radios", r"unknown key 'hub_radios' in \[blade\]; did you mean 'hub_r"),
     ("mass_per_length", "mass_length", r"did you mean 'mass_per_length'\?"),
@@ -134,13 +147,31 @@ CHANGED = [
     ),
 ]
 BAD += [(WHOLE.replace(old, new, 1), sentence) for old, new, sentence in CHANGED]
+LINE = (
+    f"{BLADE_TOML}[blade.section.out_of_plane]\nbending_ratio = 0.1\ntorsion_ratio = 0.2\n"
+    "[blade.line]\ntwist = [[0.0, 0.3], [4.0, 0.1], [8.0, 0.0]]\n"
+    "precone = 0.04\nmass_offset = [0.01, 0.0]\n"
+    "[[blade.point_mass]]\nposition = 8.0\nmass = 0.1\noffset = [0.02, 0.0]\n"
+)
+STATIONS = (
+    "[blade]\nhub_radius = 0.5\n[blade.line]\nprecone = 0.04\n[blade.stations]\n"
+    "x = [0.0, 8.0]\ntwist = [0.2, 0.0]\nmass = [[8.0, 0.3, 0.02, 0.28], [4, 0.1, 0.01, 0.09]]\n"
+    "stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]\n"
+)
+MASSES = r"unknown key 'masses' in \[blade.stations\]; did you mean 'mass'"
+BAD += [
+    (LINE.replace("precone", "cone"), r"unknown key 'cone' in \[blade.line\]; did you mean 'pr"),
+    (STATIONS.replace("mass", "masses"), MASSES),
+    (STATIONS.replace("8e3", "-8e3"), "stiffness at x = 0 m has GJ = -8000"),
+    (STATIONS.replace("hub_radius = 0.5", "length = 8.0"), r"unknown key 'length' in \[blade\]"),
+]
 
 
 @pytest.mark.parametrize(("content", "sentence"), BAD)
 def test_a_bad_file_is_one_sentence(tmp_path, content, sentence):
     path = written(tmp_path / "beam.toml", content)
     with pytest.raises(ValueError, match=sentence) as refused:
-        load_beam(path)
+        load_run_file(path)
     assert str(path) in str(refused.value)
 
 
@@ -177,16 +208,6 @@ def test_any_file_is_a_beam_or_a_sentence(tmp_path_factory, content):
 
 
 def test_a_twisted_and_coned_blade(tmp_path):
-    """As the same made by hand; a key that is none is named."""
-    path = tmp_path / "blade.toml"
-    text = (
-        "[blade]\nlength = 8.0\n[blade.section]\naxial_stiffness = 5e6\nbending_stiffness = 566.0\n"
-        "mass_per_length = 0.2\n[blade.section.out_of_plane]\nbending_ratio = 0.1\n"
-        "torsion_ratio = 0.2\n[blade.line]\ntwist = [[0.0, 0.3], [4.0, 0.1], [8.0, 0.0]]\n"
-        "precone = 0.04\nmass_offset = [0.01, 0.0]\n"
-        "[[blade.point_mass]]\nposition = 8.0\nmass = 0.1\noffset = [0.02, 0.0]\n"
-    )
-    path.write_text(text)
     section = Section(axial_stiffness=5e6, bending_stiffness=566.0, mass_per_length=0.2)
     by_hand = (
         Blade(length=8.0, section=section)
@@ -196,31 +217,13 @@ def test_a_twisted_and_coned_blade(tmp_path):
         .with_offsets(mass=(0.01, 0.0))
         .with_tip_mass(0.1, offset=(0.02, 0.0))
     )
-    assert load_beam(path) == by_hand
-    path.write_text(text.replace("precone", "cone"))
-    with pytest.raises(ValueError, match=r"unknown key 'cone' in \[blade.line\]; did you mean 'pr"):
-        load_beam(path)
+    assert load_beam(written(tmp_path / "blade.toml", LINE)) == by_hand
 
 
 def test_a_blade_from_stations(tmp_path):
-    """Twist of the stations, precone of the line; what is missing and what is wrong is named."""
-    path = tmp_path / "blade.toml"
-    text = (
-        "[blade]\nhub_radius = 0.5\n[blade.line]\nprecone = 0.04\n[blade.stations]\n"
-        "x = [0.0, 8.0]\ntwist = [0.2, 0.0]\n"
-        "mass = [[8.0, 0.3, 0.02, 0.28], [4, 0.1, 0.01, 0.09]]\n"
-        "stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]\n"
-    )
-    path.write_text(text)
+    """Twist of the stations, precone of the line."""
     stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]
     mass = [[8.0, 0.3, 0.02, 0.28], [4.0, 0.1, 0.01, 0.09]]
     by_hand = Blade.from_stations([0.0, 8.0], stiffness, mass, twist=[0.2, 0.0])
-    assert load_beam(path) == by_hand.with_precone(0.04).with_hub_radius(0.5)
-    for old, new, sentence in (
-        ("mass", "masses", r"unknown key 'masses' in \[blade.stations\]; did you mean 'mass'"),
-        ("8e3", "-8e3", "stiffness at x = 0 m has GJ = -8000"),
-        ("hub_radius = 0.5", "length = 8.0", r"unknown key 'length' in \[blade\]"),
-    ):
-        path.write_text(text.replace(old, new))
-        with pytest.raises(ValueError, match=sentence):
-            load_beam(path)
+    by_hand = by_hand.with_precone(0.04).with_hub_radius(0.5)
+    assert load_beam(written(tmp_path / "blade.toml", STATIONS)) == by_hand

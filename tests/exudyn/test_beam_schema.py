@@ -10,7 +10,7 @@ import pytest
 from rotbeam_exu.files.beam_file import load_run_file
 from rotbeam_exu.files.beam_tables import schema
 from tests.beams import BLADE_TOML
-from tests.exudyn.test_beam_file import DAMPED, GOOD, PLANE, WHOLE
+from tests.exudyn.test_beam_file import DAMPED, GOOD, LINE, PLANE, STATIONS, WHOLE
 from tests.exudyn.test_stations_file import SHAPES
 
 ROOT = Path(__file__).parents[2]
@@ -23,19 +23,11 @@ BLOCKS = [
     for text in re.findall(r"```toml\n(.*?)```", page.read_text("utf-8"), re.DOTALL)
     if re.search(r"^\[+(beam|blade|motion|loads)\b", text, re.MULTILINE)
 ]
+KINKED = LINE.replace("precone = 0.04", "kinks = [[4.0, 0.0, 0.1]]")
 SHAPED = GOOD + 'shape = { kind = "Rectangle" }\n'
-LINE = (
-    f"{BLADE_TOML}[blade.section.out_of_plane]\nbending_ratio = 0.1\ntorsion_ratio = 0.2\n"
-    "[blade.line]\ntwist = [[0.0, 0.3], [8.0, 0.0]]\nkinks = [[4.0, 0.0, 0.1]]\n"
-)
-STATIONS = (
-    "[blade.stations]\nx = [0.0, 8.0]\ntwist = [0.2, 0.0]\n"
-    "mass = [[8.0, 0.3, 0.02, 0.28], [4, 0.1, 0.01, 0.09]]\n"
-    "stiffness = [[1e7, 3e6, 3e6, 8e3, 5e3, 8e4], [4e6, 1e6, 1e6, 1e3, 9e2, 2e4]]\n"
-)
 RUN = '[motion]\nomega = 4\n[numerics]\nelement = "cable"\nelements = 2\n'
 LOADS = f'{RUN}[[loads]]\nkind = "TipForce"\namplitude = 0.5\nfrequency = 3\n'
-TEXTS = [*(p.read_text("utf-8") for p in FILES), *BLOCKS, GOOD, WHOLE, DAMPED, SHAPED, LINE,
+TEXTS = [*(p.read_text("utf-8") for p in FILES), *BLOCKS, GOOD, WHOLE, DAMPED, SHAPED, KINKED,
          WHOLE.replace("mass_per_length = [0.2, -0.02]", PLANE + "bending_ratio = 1.0"),
          STATIONS, SHAPES, f"{BLADE_TOML}[blade.damping]\nratio = 0.02\n", RUN, LOADS]  # fmt: skip
 

@@ -62,12 +62,10 @@ THICK = Blade(
     ("omega", "element", "frame", "damping"),
     # Cables and exact elements in either frame and damping.
     [
-        (6.0, "cable", "rotating", VISCOUS),
-        (0.0, "cable", "inertial", "by mass"),
-        (0.0, "exact", "rotating", VISCOUS),
-        (6.0, "exact", "inertial", "by mass"),
+        (6.0, "cable", "rotating", VISCOUS), (0.0, "cable", "inertial", "by mass"),
+        (0.0, "exact", "rotating", VISCOUS), (6.0, "exact", "inertial", "by mass"),
     ],
-)
+)  # fmt: skip
 def test_free_decay_is_that_of_the_exact_blade(beam, omega, element, frame, damping):
     """Mesh, step and shear leave 5e-4 of the ratio, as they do of frequencies."""
     blade = beam.with_damping(by_mass(beam, 0.04) if damping == "by mass" else damping)

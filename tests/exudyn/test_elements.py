@@ -159,7 +159,6 @@ SOFT = Ancf3(shear_correction=0.1)
         (Cable(), BEAM, 0.0, Cable()),
         (Cable(), BEAM, 6.0, Cable()),
         (Exact(), THICK, 5.0, Exact(nodes=3)),
-        (Exact(nodes=3), THICK, 5.0, Exact(nodes=3)),
         # Its section is that of each Gauss point.
         (SOFT, BEAM.with_hub_radius(0.8).with_taper(0.3, 0.5).with_tip_mass(0.1), 6.0, SOFT),
         (Linear(), BEAM, 2.0, Linear()),

@@ -83,6 +83,7 @@ def test_a_kicked_tube_swings_as_exudyn_has_it():
     ("blade", "kick", "sentence"),
     [
         (TUBE, 0.2, "at most 0.1 of the length"),
+        (TUBE, np.nan, "must be finite"),
         (Beam.reference(), 1e-3, r"kick.*with_section_out_of_plane\("),
         (TUBE.blade.with_twist(0.1), 1e-3, "in its plane"),
     ],
@@ -90,6 +91,9 @@ def test_a_kicked_tube_swings_as_exudyn_has_it():
 def test_kicks_that_are_refused(blade, kick, sentence):
     with pytest.raises(ValueError, match=sentence):
         spin_up_response(blade, SpinUp(omega=2.0, ramp_time=1.0), [0.5], bent=kick)
+    if blade == TUBE:
+        with pytest.raises(ValueError, match=sentence):
+            kicked(blade, kick)
 
 
 def slender(slenderness, bending_ratio):

@@ -23,11 +23,9 @@ from rotbeam_exu.runs.attributes import loads_of
 from rotbeam_exu.runs.check import check_run, energy_drift, remedy
 
 ALL = (
-    Gravity(2.0),
-    SpeedRipple(amplitude=0.1, frequency=5.0),
-    TipForce(amplitude=0.3, frequency=2.0),
+    Gravity(2.0), SpeedRipple(amplitude=0.1, frequency=5.0), TipForce(amplitude=0.3, frequency=2.0),
     DistributedForce(amplitude=0.1, frequency=3.0),
-)
+)  # fmt: skip
 
 
 def by_mass(blade, c, **viscous):

@@ -10,15 +10,7 @@ import pytest
 from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 
-from analytic import (
-    Damping,
-    Gravity,
-    Rectangle,
-    SpeedRipple,
-    SpinUp,
-    SteadyRotation,
-    TipForce,
-)
+from analytic import Damping, Gravity, Rectangle, SpeedRipple, SpinUp, SteadyRotation, TipForce
 from rotbeam_exu import simulate
 from rotbeam_exu.fem import add_rotating_beam
 from rotbeam_exu.fem.solver import exudyn_system

@@ -87,8 +87,7 @@ def test_energy_and_both_frames():
     runs = [
         simulate(
             ALIKE, SteadyRotation(omega=2.0), element="space_cable", elements=4, duration=2.0,
-            step=5e-3, frame=frame,
-            initial_state=kicked(ALIKE, 1e-3, lambda x: orbit.state(0, x)),
+            step=5e-3, frame=frame, initial_state=kicked(ALIKE, 1e-3, lambda x: orbit.state(0, x)),
         )
         for frame in ("inertial", "rotating")
     ]  # fmt: skip
@@ -149,12 +148,6 @@ def test_rate_of_a_known_growth(rate):
     assert found == pytest.approx(rate, rel=0.02)
     if rate == 0.9:
         assert decades == pytest.approx(3.0, abs=0.01)
-
-
-@pytest.mark.parametrize("kick", [0.5, np.nan])
-def test_a_kick_is_small(kick):
-    with pytest.raises(ValueError, match="kick"):
-        kicked(RECTANGLE, kick)
 
 
 def run_on_an_orbit(blade, omega, amplitude, periods, element="space_exact", **settings):

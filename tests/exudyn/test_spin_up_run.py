@@ -41,14 +41,10 @@ def coarse(beam, spin_up):
     return run
 
 
-def test_history_reaches_the_converged_one(fine):
+def test_histories_reach_the_converged_one(fine, main_job):
     largest = np.abs(fine["q"]).max().item()
-    # Asked: 1e-3 of max|q|. Mesh and step leave 1.2e-4 here.
+    # Asked: 1e-3 of max|q|. Mesh and step leave 1.2e-4 of the fine one.
     assert np.abs(at(fine, TIMES) - CONVERGED).max() < 2e-4 * largest
-
-
-def test_main_job_reaches_the_converged_one(main_job):
-    largest = np.abs(main_job["q"]).max().item()
     assert np.abs(at(main_job, TIMES) - CONVERGED).max() < 1e-3 * largest
 
 
@@ -71,14 +67,6 @@ def test_step_order_is_two(coarse, frame, fitted_order):
     assert fitted_order(steps[:-1], changes) == pytest.approx(2.0, abs=0.03)
 
 
-def test_rotating_frame_has_a_tenth_of_the_step_error(coarse):
-    def change(frame):
-        one, other = (coarse(h, frame)["q"][-1].item() for h in (4e-3, 2e-3))
-        return abs(one - other)
-
-    assert change("inertial") > 10.0 * change("rotating")
-
-
 def test_mesh_order_is_four(coarse, fine, fitted_order):
     meshes = [4, 8, 16, 32]
     times = np.arange(0.1, 6.01, 0.1)
@@ -86,16 +74,6 @@ def test_mesh_order_is_four(coarse, fine, fitted_order):
     changes = [np.abs(a - b).max() for a, b in pairwise(runs)]
     # Still approaching four on meshes this coarse: 3.6 and 3.9 between neighbors.
     assert -fitted_order(meshes[:-1], changes) == pytest.approx(4.0, abs=0.35)
-
-
-def test_both_frames_converge_to_the_same(coarse):
-    """Two formulations of drive, inertia and integrator; the difference falls with the step."""
-    gaps = []
-    for step in (4e-3, 2e-3):
-        inertial, rotating = (coarse(step, frame) for frame in ("inertial", "rotating"))
-        gaps.append(np.abs(inertial["q"] - rotating["q"]).max().item())
-    assert gaps[1] < 0.26 * gaps[0]
-    assert gaps[1] < 4e-3
 
 
 @pytest.mark.parametrize("frame", ["inertial", "rotating"])

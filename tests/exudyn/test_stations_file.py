@@ -35,8 +35,7 @@ def test_a_planar_blade(loaded):
 def test_a_blade_in_space(loaded):
     """Shear that is not told is as stiff as EA; inertia that is not told, of one material."""
     by_hand = Blade.from_stations(
-        [0.0, 10.0],
-        [[1e7, 1e7, 1e7, 8e3, 5e3, 8e4], [4e6, 4e6, 4e6, 1e3, 1e3, 2e4]],
+        [0.0, 10.0], [[1e7, 1e7, 1e7, 8e3, 5e3, 8e4], [4e6, 4e6, 4e6, 1e3, 1e3, 2e4]],
         [[8.0, 0.068, 0.004, 0.064], [4.0, 0.021, 0.001, 0.02]],
         twist=np.radians([10.0, 0.0]), center=[[-0.02, 0.0], [-0.01, 0.0]],
     )  # fmt: skip
@@ -45,6 +44,14 @@ def test_a_blade_in_space(loaded):
         ours, theirs = (np.array(getattr(one.section, name)) for one in (found, by_hand))
         assert ours == pytest.approx(theirs, rel=1e-14, abs=1e-14)
     assert found.line.twist[0] == pytest.approx(by_hand.line.twist[0], rel=1e-15)
+
+
+SHAPES = (
+    "[blade.stations]\nx = [0.0, 2.0]\nyoungs_modulus = 7e10\ndensity = [2700, 2800]\n"
+    'shapes = [{ kind = "Rectangle", height = 0.08, width = 0.01 },\n'
+    '          { kind = "Rectangle", height = 0.04, width = 0.008 }]\n'
+)
+RATIO = f"{TOML}[blade.damping]\nratio = 0.02\n"
 
 
 @pytest.mark.parametrize(
@@ -66,34 +73,25 @@ def test_a_bad_table_is_one_sentence(loaded, tmp_path, old, new, sentence):
     assert str(tmp_path) in str(refused.value)
 
 
-def test_a_missing_table_is_named(loaded):
-    with pytest.raises(FileNotFoundError, match="there is no file .*sections.csv"):
-        loaded(PLANAR, TOML.replace("stations.csv", "sections.csv"))
-
-
-SHAPES = (
-    "[blade.stations]\nx = [0.0, 2.0]\nyoungs_modulus = 7e10\ndensity = [2700, 2800]\n"
-    'shapes = [{ kind = "Rectangle", height = 0.08, width = 0.01 },\n'
-    '          { kind = "Rectangle", height = 0.04, width = 0.008 }]\n'
+@pytest.mark.parametrize(
+    ("toml", "sentence"),
+    [
+        (TOML.replace("stations.csv", "sections.csv"), "there is no file .*sections.csv"),
+        (SHAPES.replace("[{ kind", '["Tube", { kind'), "write a shape as a table"),
+        (f"{RATIO}bending = 0.1\n", r"unknown key 'bending' in \[blade.damping\]"),
+    ],
 )
+def test_a_bad_file_beside_it_is_one_sentence(loaded, toml, sentence):
+    with pytest.raises((FileNotFoundError, ValueError), match=sentence):
+        loaded(PLANAR, toml)
 
 
 def test_shapes_and_a_damping_ratio(loaded):
     shapes = Rectangle(height=0.08, width=0.01), Rectangle(height=0.04, width=0.008)
     by_hand = Blade.from_shapes([0.0, 2.0], shapes, 7e10, [2700.0, 2800.0])
     assert loaded("", SHAPES) == by_hand
-    damped = loaded(PLANAR, f"{TOML}[blade.damping]\nratio = 0.02\n")
+    damped = loaded(PLANAR, RATIO)
     plain = loaded(PLANAR)
     assert damped == plain.with_damping(Damping.from_ratio(plain, 1, 0.02))
     # At rest, as close as the frequency is that the ratio was made with.
     assert damping_ratios(damped, omega=0.0)[0] == pytest.approx(0.02, rel=1e-6)
-
-
-def test_a_shape_that_is_no_table_is_refused(loaded):
-    with pytest.raises(ValueError, match=r"write \[\[blade.stations.shapes\]\] as a table"):
-        loaded("", SHAPES.replace("[{ kind", '["Tube", { kind'))
-
-
-def test_a_ratio_and_another_damping_are_refused(loaded):
-    with pytest.raises(ValueError, match=r"unknown key 'bending' in \[blade.damping\]"):
-        loaded(PLANAR, f"{TOML}[blade.damping]\nratio = 0.02\nbending = 0.1\n")

@@ -13,16 +13,12 @@ from hypothesis import strategies as st
 from rotbeam_exu import load, save, simulate
 from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.fem.simulation import run_case
-from rotbeam_exu.files.results import differing_inputs, save_tables, whole_file, writable_folder
+from rotbeam_exu.files.results import differing_inputs, save_tables, whole_file
 
 
 @pytest.fixture(scope="module")
 def run(beam, spin_up):
     return simulate(beam, spin_up, elements=2, duration=4.0, step=5e-3)
-
-
-def test_a_saved_run_loads_equal(run, tmp_path):
-    xr.testing.assert_identical(load(save(run, tmp_path / "run.nc")), run)
 
 
 def test_a_loaded_run_can_be_done_again_to_the_bit(run, tmp_path):
@@ -71,13 +67,11 @@ NAMES = st.text("abcxyz_019", min_size=1, max_size=5)
 ATTRIBUTES = st.dictionaries(
     NAMES.map("my_{}".format),
     st.one_of(
-        TEXT,
-        NUMBERS,
-        st.lists(st.floats(), min_size=2, max_size=4),
+        TEXT, NUMBERS, st.lists(st.floats(), min_size=2, max_size=4),
         st.lists(TEXT, min_size=2, max_size=4),
     ),
     max_size=4,
-)
+)  # fmt: skip
 VALUES = st.sampled_from(["f8", "f4", "i8", "u2", "?", "U", "O"])
 
 
@@ -164,13 +158,8 @@ def test_a_table_has_a_row_for_each_point_of_the_grid(tmp_path):
         assert table["passed"].dtype == bool
 
 
-def test_seconds_are_no_time_deltas(tmp_path):
-    data = xr.Dataset({"v": ("x", [1.5, 2.0], {"units": "seconds"})})
-    xr.testing.assert_identical(load(save(data, tmp_path / "y.nc")), data)
-
-
-def test_fill_values_of_another_file_are_not_taken_over(tmp_path):
-    data = xr.Dataset({"v": ("x", [1.0, np.nan, -0.5])})
+def test_seconds_are_no_time_deltas_and_fill_values_of_another_file_not_taken_over(tmp_path):
+    data = xr.Dataset({"v": ("x", [1.0, np.nan, -0.5], {"units": "seconds"})})
     data["v"].encoding = {"_FillValue": -1.0, "dtype": "int16", "scale_factor": 0.5}
     xr.testing.assert_identical(load(save(data, tmp_path / "x.nc")), data)
 
@@ -237,12 +226,6 @@ def test_unknown_endings_and_files_that_are_no_results(run, tmp_path):
     (tmp_path / "bad.nc").write_text("no netCDF")
     with pytest.raises(ValueError, match=r"bad\.nc is not a netCDF file"):
         load(tmp_path / "bad.nc")
-
-
-def test_a_folder_that_cannot_be_written(tmp_path):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(OSError, match="cannot write to the folder .* choose another"):
-        writable_folder(tmp_path / "file" / "results")
 
 
 def test_inputs_that_differ_from_a_file_are_named(run, tmp_path):

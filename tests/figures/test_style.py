@@ -27,15 +27,13 @@ def data():
     mesh = ("mesh", "omega", "ramp_time")
     return xr.Dataset(
         {
-            "backbone": (("model", "omega", "a"), ratio),
-            "ratio": (mesh, points),
-            "amplitude": (mesh, [[[0.1, 0.2]]]),
-            "ratio_error": (mesh, bars),
+            "backbone": (("model", "omega", "a"), ratio), "ratio": (mesh, points),
+            "amplitude": (mesh, [[[0.1, 0.2]]]), "ratio_error": (mesh, bars),
             "amplitude_error": (mesh, bars),
         },
         {"model": ["CE", "CI", "exact"], "omega": [6.0], "a": a, "mesh": ["paper"], "ramp_time": t},
         {**beam_attributes(Beam.reference()), "meshes": "16 cable elements"},
-    )
+    )  # fmt: skip
 
 
 def colors(axes):
@@ -64,11 +62,8 @@ def test_grey_has_no_color_and_tells_lines_apart(data):
     assert len(set(to_rgb(own.get_color()))) == 1
     looks = {(to_rgb(line.get_color()), str(line._dash_pattern)) for line in axes.lines[:3]}
     assert len(looks) == 3
-
-
-def test_models_differ_by_more_than_their_color():
     dashes = [str(line["ls"]) for name, line in MODEL_LINES.items() if name != "exact"]
-    assert len(set(dashes)) == len(dashes)
+    assert len(set(dashes)) == len(dashes), "by more than their color"
 
 
 def test_an_unknown_style_names_those_that_are_known():
@@ -77,22 +72,15 @@ def test_an_unknown_style_names_those_that_are_known():
         pass
 
 
-def test_numbers_are_typeset():
-    words = typeset("-33.4 %, 1.758e-06, 2e+03 and (-v), rad-s, 1-2")
-    assert words == "−33.4 %, 1.758·10⁻⁶, 2·10³ and (-v), rad-s, 1-2"
-
-
 def test_models_are_spelled_out_where_there_is_room(data):
     figure = figures.figure_14(data)[0].figure
     assert len(figure.axes) == 1  # of one speed
     (legend,) = figure.legends
     names = [text.get_text() for text in legend.get_texts()]
     assert names == [
-        "CE: cantilever's mode, extensible",
-        "CI: cantilever's mode, inextensible",
-        "exact: geometrically exact beam",
-        "16 elements",
-    ]
+        "CE: cantilever's mode, extensible", "CI: cantilever's mode, inextensible",
+        "exact: geometrically exact beam", "16 elements",
+    ]  # fmt: skip
     figure, ax = plt.subplots(figsize=(3.5, 3.0))
     figures.figure_14(data, ax=[ax])
     assert figure.legends[0].get_texts()[0].get_text() == "CE"
@@ -128,6 +116,8 @@ def test_axes_have_fitting_units_and_keep_their_data(size, unit, shown):
 
 
 def test_numbers_in_words_have_a_prefix_beyond_those_of_the_paper_s_beam():
+    words = typeset("-33.4 %, 1.758e-06, 2e+03 and (-v), rad-s, 1-2")
+    assert words == "−33.4 %, 1.758·10⁻⁶, 2·10³ and (-v), rad-s, 1-2"
     assert quantity(0.002, "rad/s") == "0.002 rad/s"
     assert quantity(4.5e-5, "s") == "45 µs"
     assert quantity(5.0328e6, "N", 4) == "5.033 MN"

@@ -13,6 +13,7 @@ from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.kit import STATIC, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.submission_files import read_submission
+from tests.kit.test_kit import columns as history
 
 STARTERS = STATIC / "starters"
 MESH, STEP = "4", "4e-4"
@@ -50,11 +51,6 @@ def chain(tmp_path_factory):
 def rows(path):
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
-
-
-def history(path):
-    found = rows(path)
-    return {name: np.array([float(row[name]) for row in found]) for name in found[0]}
 
 
 def fortran(folder):

@@ -4,6 +4,7 @@ All slow: the site's build runs each script, too.
 """
 
 import runpy
+from functools import cache
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -11,74 +12,92 @@ import numpy as np
 import pytest
 
 from analytic import (
+    Beam,
     SpinUp,
     linear_modes,
-    periodic_orbits,
-    reduced_model,
     residual_amplitude,
     spin_up_response,
 )
 
 pytestmark = pytest.mark.slow
 
+BEAM = Beam.reference()
 MODELS = Path(__file__).parents[2] / "models"
 
 
-@pytest.fixture
-def run(monkeypatch):
+@pytest.fixture(scope="module")
+def run():
     """Run a script by name and return its variables; it has to leave a figure."""
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    monkeypatch.setattr(plt, "show", lambda: None)
-    plt.close("all")
 
+    @cache
     def script(name):
-        variables = runpy.run_path(str(MODELS / f"{name}.py"))
-        assert plt.get_fignums(), f"{name} draws nothing"
         plt.close("all")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(plt, "show", lambda: None)
+            variables = runpy.run_path(str(MODELS / f"{name}.py"))
+        assert plt.get_fignums(), f"{name} draws nothing"
         return variables
 
     return script
 
 
-def test_spin_up(run, beam):
-    found = run("spin_up")
-    exact = periodic_orbits(beam, 6.0, [found["steady"].amplitude])
-    # The distance of 16 elements at 1 ms from the exact beam is 2e-4 at most.
-    assert found["ratio"] == pytest.approx(exact.frequency[0] / exact.omega_n, abs=2e-4)
-    assert found["ratio"] == pytest.approx(0.99789, abs=2e-5)
+def impulse(found):
+    into_blades = sum(np.trapezoid(torque, found["time"]) for torque in found["torques"])
+    return found["inertia"] * found["speed"][-1] + into_blades
 
 
-def test_quiet_spin_up(run, beam):
-    left = run("quiet_spin_up")["left"]
-    # The closed form of Eq. 1 is a few percent high; 16 elements leave 1e-6 themselves.
-    spin_up = SpinUp(omega=6.0, ramp_time=4.0)
-    assert left["Eq. 1"] == pytest.approx(residual_amplitude(beam, spin_up), rel=0.05)
-    assert left["designed"] < 1e-5
+def by_closed_form(left):
+    return left / residual_amplitude(BEAM, SpinUp(omega=6.0, ramp_time=4.0))
 
 
-def test_mesh_convergence(run):
-    # Cubic elements: energies, and with them frequencies, converge with the fourth power.
-    assert run("mesh_convergence")["order"] == pytest.approx(4.0, abs=0.2)
+def ratio_at(data, hub_ratio, w_bar):
+    return data["ratio"].sel(hub_ratio=hub_ratio).interp(w_bar=w_bar).item()
 
 
-def test_phase_space(run):
-    miss = run("phase_space")["miss"]
-    assert abs(miss.sel(model="exact").item()) < 2e-4
-    # CI and FrI soften far too much at 6 rad/s, so that their periods are long; CE hardens.
-    assert miss.sel(model="FrI").item() == pytest.approx(0.071, abs=2e-3)
-    assert miss.sel(model="CE").item() < -0.05
+def at_speed(diagram):
+    return diagram.frequencies[-1] / diagram.omegas[-1]
 
 
-def test_backbone(run, beam):
-    found = run("backbone")["exact"].lambda_omega
-    # FrM leaves the extensibility out, 1e-5 here.
-    assert found == pytest.approx(reduced_model(beam, 6.0, "FrM").lambda_omega, abs=2e-5)
-
-
-def test_tapered_blade(run):
-    found = run("tapered_blade")
-    # Inextensible, flap² - lag² is ω²; μ times squares of frequencies is left.
-    assert np.abs(found["gap"][1:] / found["omegas"][1:] ** 2).max() < 5e-4
+@pytest.mark.parametrize(
+    ("name", "number", "wanted", "close"),
+    [
+        ("spin_up", lambda f: f["ratio"], 0.99789, 2e-5),
+        # Cubic elements: energies, and with them frequencies, converge with the fourth power.
+        ("mesh_convergence", lambda f: f["order"], 4.0, 0.2),
+        # As FrM has it, which leaves the extensibility out, 1e-5 here.
+        ("backbone", lambda f: f["exact"].lambda_omega, 0.019661, 2e-5),
+        # Both as printed in the literature, the lag to the digits of a converged run.
+        ("simo_vu_quoc", lambda f: 1e3 * f["stretch"], 0.51432, 5e-6),
+        ("simo_vu_quoc", lambda f: f["lag"], -0.57375, 5e-5),
+        # One floating frame feels ω² as a negative stiffness; axial motion takes 4e-5 off.
+        ("linear_frame", lambda f: f["rate"], np.sqrt(16.0 - BEAM.omega_0**2), 3e-4),
+        ("substructures", lambda f: f["two"]["tangent"], 4.4510, 1e-4),
+        # Bending as if E were E/(1 - ν²), ν = 0.3.
+        ("thickness_locking", lambda f: f["off"]["coupled"], 0.91**-0.5 - 1.0, 5e-5),
+        ("thickness_locking", lambda f: f["off"]["uncoupled"], 0.0, 1e-6),
+        # 16 elements leave 1e-6 themselves; the closed form of Eq. 1 is a few percent high.
+        ("quiet_spin_up", lambda f: f["left"]["designed"], 0.0, 1e-5),
+        ("quiet_spin_up", lambda f: by_closed_form(f["left"]["Eq. 1"]), 1.0, 0.05),
+        # FrI softens far too much at 6 rad/s, so that its period is long.
+        ("phase_space", lambda f: f["miss"].sel(model="exact").item(), 0.0, 2e-4),
+        ("phase_space", lambda f: f["miss"].sel(model="FrI").item(), 0.071, 2e-3),
+        # Inextensible, flap² - lag² is ω²; μ times squares of frequencies is left.
+        ("tapered_blade", lambda f: f["gap"][1:] / f["omegas"][1:] ** 2, np.zeros(12), 5e-4),
+        # The motor's impulse; 20 ms between the samples leave 5e-5 of it.
+        ("hub_with_blades", lambda f: impulse(f) / f["impulse"], 1.0, 1e-4),
+        # Another code's 3.59302.
+        ("softening_map", lambda f: f["hardens"] < 3.59302 < f["softens"], True, 0.0),
+        ("softening_map", lambda f: ratio_at(f["data"], 5.0, 4.0914), 3.0, 2e-3),
+        ("campbell_diagram", lambda f: f["first"].omega, 1.490359, 1e-6),
+        # A chain's, √(k (2k - 1)) ω; the little stiffness adds a few percent.
+        ("campbell_diagram", lambda f: at_speed(f["flat"])[3:6], np.sqrt([1.0, 6.0, 15.0]), 0.05),
+        ("model_errors", lambda f: f["total"]["FrM"], 0.0, 2e-4),
+        # Fifth order is a tenth of third order's error at 0.3, 0.2 against 3.4 % of the shift.
+        ("backbone_formula", lambda f: f["said"][25] / f["shift"][25], 1.0, 0.004),
+    ],
+)
+def test_a_number_is_right(run, name, number, wanted, close):
+    assert number(run(name)) == pytest.approx(wanted, abs=close)
 
 
 def test_forced_response(run):
@@ -116,76 +135,6 @@ def test_blade_in_exudyn(run):
     assert half_periods[1] > 1.05 * half_periods[0]
 
 
-def test_hub_with_blades(run):
-    found = run("hub_with_blades")
-    into_blades = sum(np.trapezoid(torque, found["time"]) for torque in found["torques"])
-    # The motor's impulse; 20 ms between the samples leave 5e-5 of it.
-    momentum = found["inertia"] * found["speed"][-1] + into_blades
-    assert momentum == pytest.approx(found["impulse"], rel=1e-4)
-
-
-def test_softening_map(run):
-    found = run("softening_map")
-    # Another code's 3.59302.
-    assert found["hardens"] < 3.59302 < found["softens"]
-    ratio = found["data"]["ratio"].sel(hub_ratio=5.0)
-    assert np.interp(4.0914, ratio.w_bar, ratio) == pytest.approx(3.0, abs=2e-3)
-
-
-def test_simo_vu_quoc(run):
-    found = run("simo_vu_quoc")
-    # Both as printed in the literature, the lag to the digits of a converged run.
-    assert found["stretch"] == pytest.approx(5.1432e-4, abs=5e-9)
-    assert found["lag"] == pytest.approx(-0.57375, abs=5e-5)
-
-
-def test_campbell_diagram(run, beam):
-    found = run("campbell_diagram")
-    crossing = found["first"]
-    modes = linear_modes(beam, crossing.omega)
-    assert modes.frequencies[0] == pytest.approx(2.0 * crossing.omega, rel=1e-10)
-    assert crossing.omega == pytest.approx(1.490359, abs=1e-6)
-    # A chain's, √(k (2k - 1)) ω; the little stiffness adds a few percent.
-    chain = found["flat"].frequencies[-1, 3:6] / found["flat"].omegas[-1]
-    assert chain == pytest.approx(np.sqrt([1.0, 6.0, 15.0]), rel=0.02)
-
-
-def test_model_errors(run):
-    found = run("model_errors")
-    budget = found["budget"]
-    # The pieces add up to the whole, by construction of the budget.
-    np.testing.assert_allclose(budget["error"].sum("source"), budget["total"], atol=1e-12)
-    assert abs(found["total"]["FrM"]) < 2e-4
-    assert abs(found["total"]["CI"]) > 50 * abs(found["total"]["FrM"])
-
-
-def test_linear_frame(run, beam):
-    # One floating frame feels ω² as a negative stiffness; axial motion takes 4e-5 off.
-    expected = np.sqrt(16.0 - beam.omega_0**2)
-    assert run("linear_frame")["rate"] == pytest.approx(expected, rel=1e-4)
-
-
-def test_substructures(run, beam):
-    two = run("substructures")["two"]
-    assert beam.omega_0 < two["tangent"] < two["pinned"]
-    assert two["tangent"] == pytest.approx(4.4510, abs=1e-4)
-
-
-def test_thickness_locking(run):
-    off = run("thickness_locking")["off"]
-    # Bending as if E were E/(1 - ν²), ν = 0.3.
-    assert off["coupled"] == pytest.approx(0.91**-0.5 - 1.0, rel=1e-3)
-    assert abs(off["uncoupled"]) < 1e-6
-
-
-def test_backbone_formula(run, beam):
-    found = run("backbone_formula")
-    exact = periodic_orbits(beam, 6.0, [0.3]).frequency[0]
-    assert found["curve"].frequency(0.3) == pytest.approx(exact, rel=1e-9)
-    # Fifth order is a tenth of third order's error at 0.3, 0.2 against 3.4 % of the shift.
-    assert abs(found["said"][25] / found["shift"][25] - 1.0) < 0.004
-
-
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_internal_resonance(run):
     found = run("internal_resonance")
@@ -194,14 +143,10 @@ def test_internal_resonance(run):
 
 
 @pytest.fixture(scope="module")
-def planar():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MPLBACKEND", "agg")
-        patch.setattr(plt, "show", lambda: None)
-        found = runpy.run_path(str(MODELS / "is_it_planar.py"))
+def planar(run):
+    found = run("is_it_planar")
     # Map, branches, three codes, the buckled shape; the film is closed.
     assert len(plt.get_fignums()) == 4
-    plt.close("all")
     return found
 
 

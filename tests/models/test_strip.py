@@ -93,11 +93,9 @@ def test_three_codes_agree():
             assert farthest(f"{code}_{coarse}", until) > closer * farthest(f"{code}_{fine}", until)
     # The page's table, to its two digits.
     for code, differences in {
-        "exudyn_64": (1.2e-6, 1.5e-3, 3.4e-3),
-        "exudyn_128": (1.5e-7, 3.9e-4, 9.0e-4),
-        "mujoco_32": (4.1e-6, 2.6e-3, 5.4e-3),
-        "mujoco_64": (1.0e-6, 1.3e-3, 2.8e-3),
-    }.items():
+        "exudyn_64": (1.2e-6, 1.5e-3, 3.4e-3), "exudyn_128": (1.5e-7, 3.9e-4, 9.0e-4),
+        "mujoco_32": (4.1e-6, 2.6e-3, 5.4e-3), "mujoco_64": (1.0e-6, 1.3e-3, 2.8e-3),
+    }.items():  # fmt: skip
         found = [farthest(code, until) for until in (0.65, 1.0, 1.5)]
         assert found == pytest.approx(differences, rel=0.05)
 

@@ -119,11 +119,6 @@ def test_the_matrix_has_all_cases_and_what_is_missing(pages, right):
     assert outcomes.count("not submitted") == 18
 
 
-def test_a_page_of_twelve_cases_is_less_than_a_megabyte(pages):
-    """Two cases here, one of them with two figures."""
-    assert len(pages["right"].encode()) < 1e6 / 6
-
-
 def test_the_table_for_a_paper_has_a_row_for_each_case(right, wrong):
     rows = [line for line in latex_table(right).splitlines() if line.endswith("\\\\")]
     assert [row.split("&")[0].strip() for row in rows] == ["Case", "L", "S1"]
@@ -149,13 +144,8 @@ def test_the_document_is_json_and_says_all(right):
     assert history["outcome"] == "converges to the reference"
     assert len(again["cases"]["S1"]["runs"]) == 5
     assert again["cases"]["S1"]["runs"][0]["difference"] == pytest.approx(0.1 / 64 + 1e-4, rel=1e-2)
-    assert again["declaration"]["theory"] == {
-        "extension": True,
-        "shear": None,
-        "engesser": False,
-        "rotary_inertia": False,
-        "trapeze": True,
-    }
+    theory = {"extension": True, "shear": None, "engesser": False, "rotary_inertia": False}
+    assert again["declaration"]["theory"] == {**theory, "trapeze": True}
 
 
 def test_every_key_of_the_document_is_documented(right):

@@ -1,0 +1,114 @@
+"""Bad input to the commands: one sentence each, exit code 2, and nothing written."""
+
+import shlex
+
+import pytest
+
+from tests.beams import BLADE_TOML
+
+FILES = {
+    "blade": BLADE_TOML, "slip": "[motion]\nomga = 6", "load": "[[loads]]\nkind = 'Gravity'\n",
+    "motion": "[motion]\nomega = 4", "element": "[numerics]\nelement = 'cabel'",
+    "frame": "[numerics]\nframe = 'rotated'",
+}  # fmt: skip
+RUN, SWEEP, RESPOND = "run ", "sweep --omega 6 --ramp-time 3 ", "respond --from 3.6 --to 4 "
+STABILITY, GRAVITY = "stability --omega 2 ", f"{RESPOND}--gravity --damping-ratio 0.1 "
+HELP = "requires an argument. rotbeam {} --help explains it"
+
+
+@pytest.mark.parametrize(
+    ("command", "sentence"),
+    [
+        # Numbers: what is none, and what would never end.
+        ("run --elements 2.5", "it must be a whole number"),
+        ("sweep --jobs 1e1", "it must be a whole number"),
+        ("table nan", "it must be"),
+        ("table 6", "it must be"),
+        ("table every", "it must be"),
+        ("animate --rate 0.6", "it must be a whole number"),
+        ("animate --rate 0", "rate must be at least 1"),
+        ("campbell --points ''", "it must be a whole number"),
+        ("campbell --points 1", "points must be at least 2"),
+        ("campbell --count 1000000000", "at most 256 functions are taken"),
+        ("backbone --omega 6 --exact --functions 1000000", "at most 256 functions"),
+        ("run --omega nan", "omega must be finite"),
+        ("run --ramp-time -2", "ramp_time must be positive, got -2.0 s"),
+        ("run --omega 0", "nothing oscillates: take a speed above zero, as 6 rad/s"),
+        ("run --rpm 60", "as --omega, and 1 rpm is 0.10472 rad/s"),
+        ("sweep --hz=1.5", "1 hz is 6.28319 rad/s"),
+        # Options: what is missing or unknown, and endings.
+        ("run --speed 6", "--speed"),
+        ("run --omega", f"--omega {HELP.format('run')}"),
+        ("run --config none.toml", "there is no file none.toml"),
+        ("run --config ../slip.toml", "unknown key 'omga' in [motion]; did you mean 'omega'?"),
+        ("run --config ../element.toml", "unknown element 'cabel'"),
+        ("run --config ../frame.toml", "unknown frame 'rotated'"),
+        ("reference --config ../load.toml", "[[loads]], which only run, sweep and converge"),
+        ("compare --config ../blade.toml", "take rotbeam backbone --variant FrM --exact"),
+        ("explore --config ../motion.toml", "leave [motion] out of the file"),
+        ("run --tip-force 1", "with --load-frequency"),
+        ("respond --to 2", f"--from {HELP.format('respond')}"),
+        ("figure", f"NUMBER {HELP.format('figure')}"),
+        ("figure -- 7", "it must be 3, 4, 5, 8"),
+        ("figure -- x", "it must be 3, 4, 5, 8"),
+        ("figure 8 --style House", "house"),
+        ("figure 8 --config ../blade.toml", "Unknown option: --config"),
+        ("figure 13 --style sepia", "unknown style 'sepia'; known are house, journal, grey"),
+        ("verify --element cabel", "unknown element 'cabel'; known are 'cable', "),
+        ("backbone --omega 6 --variant frn", "variant must be one of CI, CE"),
+        ("backbone --omega 6 --mode 2 --variant FrE", "the reduced models are of mode 1"),
+        ("backbone --omega 6 --format text", 'Choose from: "table", "csv"'),
+        ("animate --beside cable", "linear"),
+        ("animate --height 0.04 --out film.pvd", "give width too, or leave both out"),
+        ("animate --out beam.avi", "the ending must be .gif or .mp4"),
+        ("explore --out explorer.pdf", "the ending must be .html"),
+        ("judge mine --report a.pdf", "the ending must be .html"),
+        ("judge mine --json a.txt", "the ending must be .json"),
+        ("judge none", "name that of the submission"),
+        ("judge mine --run", "Unknown option: --run"),
+        ("judge mine --case S9", "there is no case 'S9': it must be L, S1"),
+        # Sweeps, meshes and ramps.
+        (f"{SWEEP}--omega 4 4", "omegas holds 4 more than once"),
+        (f"{SWEEP}--step nan", "step must be finite, got nan s"),
+        (f"{SWEEP}--omega 0 4", "at omega = 0 rad/s the beam stays at rest"),
+        (f"{SWEEP}--ramp-time 3 -3", "ramp_time must be positive, got -3.0 s"),
+        ("converge --omega 0", "nothing oscillates"),
+        ("converge --elements 1", "elements must be at least 2"),
+        ("converge --tolerance 0", "tolerance"),
+        ("ramp --omega 0", "nothing oscillates"),
+        ("ramp --longest 1", "longest must be above 0.8 periods at rest"),
+        ("ramp --points -1", "points must be at least 0"),
+        ("ramp --element none", "element"),
+        # The plane, and loads.
+        ("stability --section tub", 'Choose from: "rectangle"'),
+        (STABILITY, "give --section rectangle or --section tube"),
+        (f"{STABILITY}--section tube --ratio 2", "give it with a --section that has both"),
+        (f"{STABILITY}--section rectangle --ratio 0", "ratio must be positive"),
+        (f"{STABILITY}--section tube --mode 0", "mode must be at least 1"),
+        (f"{STABILITY}--section tube --amplitude 1.5", "between 0 and 1, got 1.5"),
+        (f"{STABILITY}--section rectangle --config ../blade.toml", "give width in m, or ratio"),
+        (f"{RESPOND}--omega 6", "or --gravity, got none"),
+        (f"{RESPOND}--gravity --ripple 0.1", "got --ripple and --gravity"),
+        (f"{RESPOND}--omega 6 --tip-force 0", "--tip-force 0 is no load"),
+        (f"{RESPOND}--tip-force 1 --damping-ratio 0.1", "rotation speed in rad/s with --omega"),
+        (f"{RESPOND}--omega 6 --tip-force 1", "is undamped"),
+        (f"{RESPOND}--omega 6 --tip-force 1 --damping-ratio 0", "has no end at resonance"),
+        (f"{RESPOND}--rippel 1", "Did you mean --ripple?"),
+        (f"{RESPOND}--gravity --damping-ratio -0.1", "ratio must not be negative"),
+        (f"{GRAVITY}--omega 6", "leave --omega out"),
+        (f"{GRAVITY}--external-damping 1", "not both"),
+        (f"{GRAVITY}--points 1", "points must be at least 2"),
+        ("respond --from 3 --to 3 --gravity --damping-ratio 0", "--to must be above --from, got 3"),
+    ],
+)
+def test_it_is_one_sentence_and_nothing_is_written(call, tmp_path, monkeypatch, command, sentence):
+    for name, text in FILES.items():
+        (tmp_path / f"{name}.toml").write_text(text)
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    code, out, error = call(*shlex.split(command))
+    assert (code, out) == (2, "")
+    assert sentence in error
+    assert error.startswith("rotbeam: ")
+    assert len(error.strip().splitlines()) == 1
+    assert not [path for path in tmp_path.glob("here/**/*") if path.is_file()]
