@@ -77,7 +77,10 @@ def test_a_bad_table_is_one_sentence(loaded, tmp_path, old, new, sentence):
     ("toml", "sentence"),
     [
         (TOML.replace("stations.csv", "sections.csv"), "there is no file .*sections.csv"),
-        (SHAPES.replace("[{ kind", '["Tube", { kind'), "write a shape as a table"),
+        (
+            SHAPES.replace("[{ kind", '["Tube", { kind'),
+            r"write \[\[blade.stations.shapes\]\] as a table",
+        ),
         (f"{RATIO}bending = 0.1\n", r"unknown key 'bending' in \[blade.damping\]"),
     ],
 )
