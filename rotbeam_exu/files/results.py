@@ -69,8 +69,12 @@ def _netcdf(data: xr.Dataset) -> bytes:
     ]
     # HDF5 then refuses an array of which a bit has changed.
     checked = {name: {"fletcher32": True} for name in arrays}
-    # In memory first: HDF5 does not survive a disk that fills while it writes.
-    return bytes(_plainly(data).to_netcdf(engine="h5netcdf", encoding=checked))
+    # In memory first: HDF5 does not survive a disk that fills while it writes. Without the lock that
+    # a Dask client would want a file's name for.
+    content = io.BytesIO()
+    with xr.backends.H5NetCDFStore.open(content, mode="w", lock=False) as store:
+        _plainly(data).dump_to_store(store, encoding=checked)
+    return content.getvalue()
 
 
 def _plainly(data: xr.Dataset) -> xr.Dataset:
