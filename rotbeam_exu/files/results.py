@@ -69,8 +69,8 @@ def _netcdf(data: xr.Dataset) -> bytes:
     ]
     # HDF5 then refuses an array of which a bit has changed.
     checked = {name: {"fletcher32": True} for name in arrays}
-    # In memory first: HDF5 does not survive a disk that fills while it writes. Without the lock that
-    # a Dask client would want a file's name for.
+    # In memory first: HDF5 does not survive a disk that fills while it writes. No lock: that of a
+    # Dask client goes by a file's name.
     content = io.BytesIO()
     with xr.backends.H5NetCDFStore.open(content, mode="w", lock=False) as store:
         _plainly(data).dump_to_store(store, encoding=checked)
