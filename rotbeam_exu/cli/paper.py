@@ -1,4 +1,4 @@
-"""`rotbeam figure`, `rotbeam table` and `rotbeam compare`: the paper beside what is right."""
+"""`rotbeam figure`, `rotbeam table` and `rotbeam compare`: the paper, and its models' errors."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ _Moving = Callable[[int], None]  # draws a part anew at time number n
 
 
 class _Gif(PillowWriter):
-    """A GIF; without a picture matplotlib's fails at its end, and hides why there is none."""
+    """A GIF. Without a picture matplotlib's own fails at its end, and hides the reason."""
 
     def finish(self) -> None:
         if self._frames:  # type: ignore[attr-defined]

@@ -46,7 +46,7 @@ class _LinearFrames(SlopeNodes, abstract=True):
 
     def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
         """∂u_x/∂x in the frames, at their nodes: the strain of the model."""
-        row = self.row(beam, (coordinates.shape[-2] - 1) // getattr(self, "cells", 1))
+        row = self.row(beam, self._elements(coordinates.shape[-2]))
         local = row.local(coordinates.reshape(*coordinates.shape[:-2], -1))[0]
         strain = local.reshape(*local.shape[:-1], -1, 4)[..., 2] - 1.0
         return np.asarray(strain.reshape(*coordinates.shape[:-2], -1))
@@ -64,6 +64,9 @@ class _LinearFrames(SlopeNodes, abstract=True):
         while (upper := 1.5 * lower) and row.lowest_eigenvalue(upper) > 0.0:
             lower = upper
         return float(optimize.brentq(row.lowest_eigenvalue, lower, upper, rtol=1e-10))
+
+    def _elements(self, nodes: int) -> int:
+        return nodes - 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,6 +134,9 @@ class Substructures(_LinearFrames):
     def row(self, beam: Beam, elements: int) -> FrameRow:
         """Return `elements` frames."""
         return FrameRow(beam, elements, self.cells, self.frame)
+
+    def _elements(self, nodes: int) -> int:
+        return (nodes - 1) // self.cells
 
 
 class FrameRow:
