@@ -165,9 +165,9 @@ class PointMass(Described):
 class Damping(Described):
     """Viscous damping of a blade.
 
-    The bending moment is EI(κ + η_b κ̇), the axial force EA(e + η_a ė). External damping takes d ṙ
-    per length, with the velocity relative to the turning frame: it does not brake steady rotation
-    as drag would, and point masses have none.
+    The bending moment about the center of tension is EI(κ + η_b κ̇), the axial force
+    EA(e + η_a ė). External damping takes d ṙ per length, with the velocity relative to the turning
+    frame: it does not brake steady rotation as drag would, and point masses have none.
 
     Parameters
     ----------

@@ -11,6 +11,7 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import AnyBlade
+from analytic.exact.space.steady import lives_in_space
 from analytic.input_checks import whole_number
 from analytic.warning import warn
 
@@ -53,9 +54,10 @@ def backbone(
     all_variants
         Every variant, one below the other.
     exact
-        Add the exact backbone, by harmonic balance on the exact beam.
+        Add the exact backbone, by harmonic balance on the exact beam; of a blade in space it comes
+        alone.
     mode
-        Mode from which the exact backbone grows; beyond 1 it comes alone, without the models.
+        Mode from which the exact backbone grows; beyond 1 it comes alone, too.
     functions
         Functions that resolve the exact beam along its length, at least.
     form
@@ -72,7 +74,10 @@ def backbone(
     omega = omega_of(file, omega)
     if whole_number("mode", mode) > 1 and (variant is not None or all_variants):
         raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")
-    names = list(analytic.VARIANTS) if all_variants else [] if mode > 1 else [variant or "FrE"]
+    told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
+    # The models are of a straight blade in its plane.
+    alone = mode > 1 or (exact and lives_in_space(file.beam))
+    names = told or ([] if alone else ["FrE"])
     refused: list[Refusal] = []
     models = []
     for name in names:
@@ -87,7 +92,7 @@ def backbone(
         orbits, failure = _exact(file.beam, omega, amplitude, mode, functions)
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
-        columns |= _exact_columns(orbits, amplitude, max(len(models), 1))
+        columns |= _exact_columns(orbits, amplitude, len(models))
     if form == "table" and models:
         _print_coefficients(models, orbits, omega)
     print_columns(columns, form, title="" if models else str(orbits))
@@ -150,14 +155,14 @@ def _frequencies(
     return dict(zip(titles, columns, strict=True)) if rows else {titles[1]: list(amplitude)}
 
 
-def _exact_columns(orbits: Orbits, amplitude: list[float], times: int) -> dict[str, list[float]]:
+def _exact_columns(orbits: Orbits, amplitude: list[float], models: int) -> dict[str, list[float]]:
     found = [
         orbits.frequency[near[0]] if near.size else math.nan
         for a in amplitude
         for near in [np.flatnonzero(np.isclose(orbits.amplitude, a, rtol=1e-6))]
     ]
-    columns = {"exact beam [rad/s]": found * times}
-    if orbits.mode > 1:
+    columns = {"exact beam [rad/s]": found * max(models, 1)}
+    if not models:
         columns["exact/ω_n"] = [frequency / orbits.omega_n for frequency in found]
     return columns
 

@@ -39,7 +39,7 @@ def test_a_command_takes_it(call, tmp_path, monkeypatch, command, told):
             assert sum(map(int, data.isnull().sum().values())) < sum(v.size for v in data.values())
 
 
-def test_a_twisted_blade_that_is_not_set_has_a_campbell_diagram(call, tmp_path):
+def test_a_twisted_blade_that_is_not_set_has_a_campbell_diagram_and_a_backbone(call, tmp_path):
     """Its flap, lag and torsion go together, so no family is asked for."""
     file = tmp_path / "twisted.toml"
     file.write_text(
@@ -50,3 +50,9 @@ def test_a_twisted_blade_that_is_not_set_has_a_campbell_diagram(call, tmp_path):
     code, out, error = call("campbell", "--points", "2", "--orders", "1", "--config", file)
     assert code == 0, error
     assert "mode 3" in out
+    # Alone, for the models are of the plane.
+    code, out, error = call(
+        "backbone", "--omega", "2", "--exact", "--amplitude", "0.1", "--config", file
+    )
+    assert code == 0, error
+    assert "exact/ω_n" in out
