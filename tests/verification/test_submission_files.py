@@ -293,11 +293,14 @@ def test_all_faults_are_told_at_once(good):
         assert said in found
 
 
-def rounding_of(folder, time, form, step=1e-3):
+def rounding_of(folder, time, form, step="1e-3"):
     """What is read to be lost of sin t by the form of its times."""
     rows = (f"{form % t},{np.sin(t):.10g}" for t in time)
-    (folder / S1).write_text("\n".join(["time,q", *rows]), "utf-8")
-    text = (folder / "runs.csv").read_text("utf-8").replace("csv,8,0.001", f"csv,8,{step}")
+    (folder / S1).unlink()
+    name = S1.replace("1e-3", step)
+    (folder / name).write_text("\n".join(["time,q", *rows]), "utf-8")
+    text = (folder / "runs.csv").read_text("utf-8")
+    text = text.replace(f"{S1},8,0.001", f"{name},8,{float(step)}")
     (folder / "runs.csv").write_text(text, "utf-8")
     return read_submission(folder).runs[0].rounding
 
@@ -314,11 +317,12 @@ def test_even_times_may_be_short_and_uneven_ones_are_off(good):
 
 
 def test_whole_steps_are_exact_however_uneven(good):
-    """14.992 is a whole number of milliseconds."""
+    """14.992 is a whole number of milliseconds; of tenths of one it may be another number."""
     time = 1e-3 * np.unique(np.append(np.cumsum(np.tile([8, 12, 16], 420))[:1249], [0, 15000]))
     time = time[time <= 15.0]
     assert np.ptp(np.diff(time)) > 1e-3
     assert rounding_of(good, time, "%.5g") == 0.0
+    assert rounding_of(good, time, "%.5g", step="1e-4") == pytest.approx(5e-4, rel=3e-2)
 
 
 def test_few_digits_widen_the_floor_by_what_they_lose(good):
