@@ -206,7 +206,11 @@ def test_a_killed_sweep_resumes_and_leaves_no_process(tmp_path, signal_number):
     ]  # fmt: skip
     here = {"cwd": Path(__file__).parents[2], "start_new_session": True, "text": True}
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    job = subprocess.Popen(arguments, **here, **pipes)
+    job = subprocess.Popen(
+        arguments, **here, **pipes,
+        # A shell's background ignores Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509
+    )  # fmt: skip
     deadline = time.monotonic() + 60.0
     while not (finished := list((tmp_path / "cache").glob("[0-9a-f]*.nc"))):
         assert time.monotonic() < deadline
