@@ -215,15 +215,18 @@ def require_blade(beam: object) -> None:
         raise TypeError(f"a Beam or a Blade is needed, got {shown(beam)}: as Beam.reference()")
 
 
-def require_planar(beam: AnyBlade) -> None:
+def require_planar(
+    beam: AnyBlade,
+    what: str = "this answer is of",
+    remedy: str = "linear_modes, steady_state, periodic_orbits, forced_response or "
+    "spin_up_response, which have it in space",
+) -> None:
     """Refuse a blade whose motion leaves the plane of bending at once."""
     require_blade(beam)
     if not beam.is_planar:
         raise ValueError(
-            "this answer is of a straight blade in its plane, and this one is from stations or "
-            "has a twist, precone, prebend, sweep, kink or offset: take linear_modes, "
-            "steady_state, periodic_orbits, forced_response or spin_up_response, which have it in "
-            "space"
+            f"{what} a straight blade in its plane, and this one is from stations or has a twist, "
+            f"precone, prebend, sweep, kink or offset: take {remedy}"
         )
 
 

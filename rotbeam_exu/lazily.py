@@ -2,34 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from analytic.lazily import Lazily
 
-
-class _OfExudyn(Lazily):
-    def __getattr__(self, name: str) -> Any:
-        try:
-            return super().__getattr__(name)
-        except ImportError as error:
-            raise ImportError(
-                f"Exudyn cannot be imported ({error}): pip install exudyn; theory, judge and "
-                "figures from files do without"
-            ) from error
-
-
 if TYPE_CHECKING:
-    import exudyn
     import h5py
     import xarray as xr
-    from exudyn import itemInterface as items  # noqa: N813
 else:
     h5py, xr = map(Lazily, ("h5py", "xarray"))
-    exudyn, items = map(_OfExudyn, ("exudyn", "exudyn.itemInterface"))
 
-__all__ = ["Lazily", "exudyn", "h5py", "items", "require_exudyn", "xr"]
-
-
-def require_exudyn() -> str:
-    """Return where Exudyn is, or raise ImportError with a sentence: before work that needs it."""
-    return str(exudyn.__file__)
+__all__ = ["h5py", "xr"]

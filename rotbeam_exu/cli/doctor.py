@@ -9,7 +9,7 @@ import time
 import analytic
 from analytic import Beam, SpinUp
 
-from ..lazily import require_exudyn
+from ..fem.lazily import require_exudyn
 from ..runs.attributes import versions
 from .output import print_text
 

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 from analytic import AnyBlade
 
 from .. import paper
-from ..lazily import require_exudyn
+from ..fem.lazily import require_exudyn
 from .job import Flag, require_writable, write_text
 from .motion import chosen_speeds, chosen_times, configured, grid_motion
 from .options import Jobs, Workers

@@ -8,8 +8,9 @@ from pathlib import Path
 import analytic
 
 from .. import paper
+from ..fem.lazily import require_exudyn
 from ..files.results import writable_folder
-from ..lazily import require_exudyn, xr
+from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results, refuse_to_replace
 from .motion import ChosenMotion, chosen_speeds, chosen_times, configured, grid_motion, motion_of

@@ -8,7 +8,8 @@ import analytic
 from analytic import AnyBlade, SpinUp
 from analytic.input_checks import positive, whole_number
 
-from ..lazily import require_exudyn, xr
+from ..fem.lazily import require_exudyn
+from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
 from .motion import Discretization, chosen_times, configured, motion_of, refuse_rest

@@ -27,9 +27,9 @@ from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.motion import Rotation
 
-from ..lazily import exudyn, items
 from .elements.energy_body import add_force, add_point_inertias, triplets
 from .elements.formulation import Chain, Formulation
+from .lazily import exudyn, items
 
 Torque = Callable[[Any, float], float]
 """Torque of a clamp on its blade, of a solved system at a time, as user functions have them."""

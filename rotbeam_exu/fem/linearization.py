@@ -17,11 +17,11 @@ from analytic.input_checks import rotation_speed, whole_number
 from analytic.loads import Load
 from analytic.methods.system import inverse_eigenvalues
 
-from ..lazily import exudyn
 from ..runs.check import SimulationError, require_stretch, warn_if_coarse
 from .columns import twist
 from .elements import Formulation, formulation
 from .elements.energy_body import add_force
+from .lazily import exudyn
 from .loading import Loading
 from .rotating_beam import add_rotating_beam
 from .solver import exudyn_system, static_settings

@@ -25,10 +25,10 @@ from analytic.lazily import sparse
 from analytic.loads import Load
 from analytic.motion import Rotation
 
-from ..lazily import exudyn
 from ..runs import Frame
 from .elements.energy_body import add_force, triplets
 from .elements.formulation import Chain, Formulation
+from .lazily import exudyn
 from .solver import mass_matrix
 
 

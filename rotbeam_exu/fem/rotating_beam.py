@@ -11,11 +11,11 @@ from analytic.lazily import sparse
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation
 
-from ..lazily import exudyn, items
 from ..runs import Frame
 from ..runs.check import whole_steps
 from . import drive
 from .elements import Chain, Formulation, formulation, require_joint, require_modeled
+from .lazily import exudyn, items
 from .loading import Loading
 from .solver import mass_matrix, round_off
 from .units import Units, restated

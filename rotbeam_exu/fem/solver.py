@@ -14,9 +14,9 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
-from ..lazily import exudyn, items
 from ..runs import Frame
 from .elements.formulation import Chain, Formulation
+from .lazily import exudyn, items
 
 
 @contextmanager

@@ -126,15 +126,18 @@ def figure_4(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axe
     the same in both, and they have one scale.
     """
     width, height = (1.08 * float(np.abs(data[name]).max()) for name in ("q_bar", "q_dot_bar"))
-    fresh, common = list(zip(cycle(), _DASHES_OF_ORBITS, strict=False)), ("0.4", "-")
-    looks = [*fresh[:2], common, common, *fresh[2:]]
+    keys = list(zip(data["omega"].values.tolist(), data["ramp_time"].values.tolist(), strict=True))
+    fresh = iter(zip(cycle(), _DASHES_OF_ORBITS, strict=False))
+    looks: dict[Any, Any] = {key: ("0.4", "-") for key in keys if keys.count(key) > 1}
     with house_axes(ax, columns(), 2.9, ncols=2) as axes:
-        for case, (color, dashes) in enumerate(looks):
-            row = data.isel(case=case)
+        for case, key in enumerate(keys):
+            if key not in looks:
+                looks[key] = next(fresh)
+            (color, dashes), row = looks[key], data.isel(case=case)
             letter = row["panel"].item()
             panel = axes["ab".index(letter)]
             q, rate = row["q_bar"].to_numpy(), row["q_dot_bar"].to_numpy()
-            names = f"ω = {float(row['omega']):g} rad/s", f"T = {float(row['ramp_time']):g} s"
+            names = f"ω = {key[0]:g} rad/s", f"T = {key[1]:g} s"
             held, name = names if letter == "a" else names[::-1]
             once = _first_turn(q, rate)
             panel.plot(q, rate, color=color, lw=0.4, alpha=0.25)

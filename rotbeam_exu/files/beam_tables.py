@@ -73,7 +73,7 @@ def require_keys(value: Any, told: Any = _DOCUMENT, title: str = "the file") -> 
         raise ValueError(f"write {title} as a table")
     if _TELLING_ITS_KIND in tables:
         return
-    # Of alternatives the one whose keys are there.
+    # The one alternative whose keys are there.
     required, optional = min(
         tables, key=lambda one: (len(one.required.keys() - value), -len(one.required))
     )

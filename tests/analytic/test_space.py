@@ -127,7 +127,7 @@ def test_about_a_damped_response_it_is_the_tangent_of_the_blade_in_space():
 
 @pytest.mark.parametrize("section", [STRIP, ROUND])
 def test_what_the_viscosity_adds_to_the_stiffness_is_half_the_rate_of_the_damping(section):
-    """Of strains s(q), C = ∫η sᵀs and air, and ∫η sᵀṡ with its transpose is Ċ."""
+    """Strains s(q) have C = ∫η sᵀs and air, and ∫η sᵀṡ with its transpose is Ċ."""
     blade = unit_beam(1e-2).with_section_out_of_plane(**asdict(section))
     space = Space(blade.with_damping(Damping(bending=0.1, external=0.3)), 6)
     planar, h = SteadyBeam(blade_continuum(space.blade, BERNOULLI_EULER, 8, 6), 2.0), 1e-5

@@ -188,7 +188,7 @@ def test_on_either_side_of_the_limit_an_orbit_leaves_its_plane_or_stays(beam):
     assert np.abs(found.multipliers[0]).max() == pytest.approx(growth, rel=1e-9)
     same = growth_rates(blade, 2.0, found.amplitude)
     assert same == pytest.approx(found.growth_rate, rel=0.01)
-    # What stays decays by its ratio of damping: flap of a round bar is of known frequency.
+    # Motion that stays decays by its ratio of damping: flap of a round bar is of known frequency.
     flap = math.hypot(linear_modes(beam, 2.0, 1).frequencies[0], 2.0)
     decay = growth_rates(beam.with_section_out_of_plane(1.0), 2.0, np.array([0.01]), damping=0.02)
     assert decay == pytest.approx(-0.02 * flap, rel=1e-5)

@@ -29,7 +29,7 @@ MESH = ("--elements", "4", "--step", "0.01", "--duration", "10")
     ids=lambda command: command[0],
 )
 def test_a_command_takes_it(call, tmp_path, monkeypatch, command, told):
-    """What a ramp leaves of any blade, and how this one responds, is tested in the theory."""
+    """A ramp's residual vibration, and the response of this blade, are tested in the theory."""
     monkeypatch.chdir(tmp_path)
     code, out, error = call(*command, "--config", NREL)
     assert code == 0, error

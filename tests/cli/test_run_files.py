@@ -38,7 +38,7 @@ def config(tmp_path):
 
 @pytest.fixture
 def reached(reached, config, tmp_path, monkeypatch):
-    """Of commands that are given the file."""
+    """Commands that are given the file."""
     monkeypatch.chdir(tmp_path)
     return lambda *command: reached(*command, "--config", config)
 

@@ -54,7 +54,7 @@ def test_nothing_in_the_data_ends_the_script(data):
 
 
 def test_it_writes_one_page_and_says_where(call, tmp_path, monkeypatch):
-    """Of a file's beam one of its own name."""
+    """A beam of a file has one of its own name."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(explorer, "explorer_data", lambda *_, **__: None)
     monkeypatch.setattr(explorer, "explorer_page", lambda _: "<!doctype html>ω")

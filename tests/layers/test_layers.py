@@ -32,7 +32,7 @@ FLOORS = {
     ],
 }  # fmt: skip
 ALLOWED = {
-    "exudyn": ("rotbeam_exu/fem/", "rotbeam_exu/lazily.py"),
+    "exudyn": ("rotbeam_exu/fem/",),
     # A result draws itself, on axes that only analytic.plotting makes, when it is asked to.
     "matplotlib": ("rotbeam_exu/figures/", "analytic/plotting.py"),
 }

@@ -188,6 +188,8 @@ class StrainFunctions:
         That of the moments about the center of tension, and of the tension; shear has none.
         """
         bend, stretch, _ = self.blade.damping
+        if not (bend or stretch):
+            return np.zeros_like(self.stiffness)
         grid = self.blade.grid(2 * self.bending, 14)
         soft = self._flexibility(grid.points)
         forces = self._forces(grid.points)[:, :3] @ self._own[0]

@@ -127,7 +127,7 @@ class Changes:
         at, motion, W, W_dot = self._at, self._motion, self._W, self._W_dot
         turn, spin, slope = self.turn, motion.spin, at.slope
         turning, stretching = motion.turning, motion.stretching
-        # Of R K̇ and R Γ̇, as R turns and the axis shortens, of the spin and of ṙ'.
+        # Changes of R K̇ and R Γ̇, as R turns and the axis shortens, of the spin and of ṙ'.
         bent = cross(turn, turning)
         stretched = cross(turn, stretching) + self._shortening(turning)
         spins_m = self._integral(bent)

@@ -12,7 +12,7 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
-from ...lazily import exudyn
+from ..lazily import exudyn
 from ..mesh import Mesh, lagrange
 from .energy_body import Assembly, add_energy_body, add_point_masses
 from .formulation import POISSON_RATIO, Chain, Sheared

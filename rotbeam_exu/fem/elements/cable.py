@@ -14,7 +14,7 @@ from analytic.arrays import FloatArray
 from analytic.beam import require_out_of_plane
 from analytic.quadrature import gauss_points
 
-from ...lazily import exudyn, items
+from ..lazily import exudyn, items
 from ..mesh import Mesh, shapes
 from .energy_body import add_point_masses
 from .formulation import Chain, Formulation, rate_of

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
-from ...lazily import exudyn, items
+from ..lazily import exudyn, items
 from ..mesh import Mesh
 
 

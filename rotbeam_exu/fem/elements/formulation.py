@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from analytic import AnyBlade
 from analytic.arrays import FloatArray
-from analytic.beam import require_blade
+from analytic.beam import require_blade, require_planar
 from analytic.description import Described
 from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.input_checks import finite_number, positive
@@ -20,7 +20,7 @@ from analytic.lazily import sparse
 from analytic.motion import Rotation
 from analytic.theory import Theory
 
-from ...lazily import exudyn, items
+from ..lazily import exudyn, items
 from ..mesh import lagrange
 from .energy_body import TurningNode, spins
 
@@ -191,17 +191,11 @@ class Formulation(Described, abstract=True):
     def require_section(self, blade: AnyBlade) -> None:
         """Refuse a blade whose line or section the element does not model."""
         require_blade(blade)
-        if not blade.is_planar:
-            whole = blade.blade
-            line, table = whole.line, whole.section.at_stations
-            beyond = (*line.kinks, *line.mass_offset, *line.tension_offset, *whole.point_masses)
-            remedy = (
-                "analytic.spin_up_response" if table or any(beyond) else "element='space_exact'"
-            )
-            raise ValueError(
-                f"element {self.name!r} is for a straight blade in its plane, and this one is from "
-                "stations or has a twist, precone, prebend, sweep, kink or offset: take " + remedy
-            )
+        whole = blade.blade
+        line, table = whole.line, whole.section.at_stations
+        beyond = (*line.kinks, *line.mass_offset, *line.tension_offset, *whole.point_masses)
+        remedy = "analytic.spin_up_response" if table or any(beyond) else "element='space_exact'"
+        require_planar(blade, f"element {self.name!r} is for", remedy)
 
     def setting(self, blade: AnyBlade) -> float:
         """Cosine of the angle between the plane in which J turns and that of rotation."""

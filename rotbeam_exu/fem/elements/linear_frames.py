@@ -21,7 +21,7 @@ from analytic.beam import require_planar
 from analytic.input_checks import whole_number
 from analytic.lazily import linalg, optimize
 
-from ...lazily import exudyn
+from ..lazily import exudyn
 from ..mesh import HERMITE, scales
 from .energy_body import Assembly, add_energy_body
 from .formulation import Chain

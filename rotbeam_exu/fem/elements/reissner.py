@@ -11,7 +11,7 @@ from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
-from ...lazily import exudyn, items
+from ..lazily import exudyn, items
 from ..mesh import Mesh, lagrange
 from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared, rate_of
 from .node_kinds import AngleNodes

@@ -17,7 +17,7 @@ from analytic.motion import Rotation
 from analytic.quadrature import gauss_points
 from analytic.theory import Theory
 
-from ...lazily import exudyn, items
+from ..lazily import exudyn, items
 from ..mesh import Mesh
 from .energy_body import Assembly, add_force
 from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
