@@ -98,9 +98,17 @@ def chosen_motion(
     return ChosenMotion(spin_up=spin_up, duration=duration, step=step)
 
 
-def configured(config: Path | None) -> RunFile:
-    """Return a run from a TOML file; without one, the paper's beam and nothing else."""
-    return RunFile(beam=Beam.reference()) if config is None else load_run_file(config)
+def configured(config: Path | None, *, takes_loads: bool = False) -> RunFile:
+    """Return a run from a TOML file; without one, the paper's beam and nothing else.
+
+    Loads of the file are refused, unless the command takes them.
+    """
+    file = RunFile(beam=Beam.reference()) if config is None else load_run_file(config)
+    if file.loads and not takes_loads:
+        raise ValueError(
+            "the file has [[loads]], which only run, sweep and converge take: leave them out"
+        )
+    return file
 
 
 def omega_of(file: RunFile, omega: float | None) -> float:
@@ -113,15 +121,8 @@ def omega_of(file: RunFile, omega: float | None) -> float:
     return known
 
 
-def motion_of(file: RunFile, *, takes_loads: bool = False, **options: float | None) -> ChosenMotion:
-    """Return `chosen_motion` of the options given, then of the file's [motion].
-
-    Loads of the file are refused, unless the command takes them.
-    """
-    if file.loads and not takes_loads:
-        raise ValueError(
-            "the file has [[loads]], which only run, sweep and converge take: leave them out"
-        )
+def motion_of(file: RunFile, **options: float | None) -> ChosenMotion:
+    """Return `chosen_motion` of the options given, then of the file's [motion]."""
     given = {name: value for name, value in options.items() if value is not None}
     return chosen_motion(file.beam, **{**file.motion, **given})
 
@@ -264,7 +265,7 @@ class Driving:
     ) -> RunCase:
         """Return the case of a spin-up, by the options given, then by the file."""
         motion = motion_of(
-            file, takes_loads=True, omega=omega, ramp_time=ramp_time, duration=numerics.duration,
+            file, omega=omega, ramp_time=ramp_time, duration=numerics.duration,
             step=numerics.step,
         )  # fmt: skip
         refuse_rest(motion.spin_up.omega)

@@ -62,7 +62,7 @@ def run(
     from ..runs.oscillation import steady_oscillation
     from ..verification.assessment import assess
 
-    file = configured(config)
+    file = configured(config, takes_loads=True)
     numerics = discretization.over(file.numerics)
     case = driving.spin_up_case(file, numerics, omega, ramp_time)
     given = omega is not None or "omega" in file.motion
