@@ -16,8 +16,8 @@ import numpy as np
 from analytic import AmplitudeNotReachedError, AnyBlade
 from analytic.exact.beam.kinematics import set_at
 from analytic.exact.beam.state import SectionLoads
-from analytic.exact.driven.forced_orbits import ForcedResponse, SpaceForcedResponse
-from analytic.exact.driven.response import SpaceResponse, SpinUpResponse
+from analytic.exact.driven.forced_orbits import ForcedResponse
+from analytic.exact.driven.response import SpinUpResponse
 from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load, rippled
 from analytic.reduced.linear_frame import LinearResponse
@@ -120,29 +120,14 @@ _described.register(SectionLoads, shape_of)
 @_described.register
 def _(response: SpinUpResponse) -> xr.Dataset:
     """Over `time`, with the names of `simulate`; Eq. 16."""
-    return _of_spin_up(
-        response,
-        {
-            "tip_x": (response.tip[:, 0], "tip position x, inertial frame [m]"),
-            "tip_y": (response.tip[:, 1], "tip position y, inertial frame [m]"),
-        },
-    )
-
-
-@_described.register
-def _(response: SpaceResponse) -> xr.Dataset:
-    """Over `time`; the tip's places from the clamp, in the frame that turns with it. q is lag."""
-    return _of_spin_up(
-        response,
-        {
-            "along": (response.tip[:, 0], "tip position along the clamp, turning frame [m]"),
-            "flap": (response.flap, "tip position normal to clamp and lag, turning frame [m]"),
-            "twist": (response.twist, "twist of the tip's section about its normal [rad]"),
-        },
-    )
-
-
-def _of_spin_up(response: SpinUpResponse, tip: dict[str, tuple[Any, str]]) -> xr.Dataset:
+    tip_x, tip_y, _ = response.from_axis.T
+    tip = {
+        "tip_x": (tip_x, "tip position x, inertial frame [m]"),
+        "tip_y": (tip_y, "tip position y, inertial frame [m]"),
+        "along": (response.tip[:, 0], "tip position along the clamp, turning frame [m]"),
+        "flap": (response.flap, "tip position normal to clamp and lag, turning frame [m]"),
+        "twist": (response.twist, "twist of the tip's section about its normal [rad]"),
+    }
     motion = rippled(response.spin_up, response.loads)
     columns = {
         "q": (response.q, "tip displacement q, Eq. 16 [m]"),
@@ -220,8 +205,11 @@ def _root_loads(response: SpinUpResponse) -> dict[str, tuple[Any, str]]:
 
 @_described.register
 def _(response: ForcedResponse) -> xr.Dataset:
-    """Return `_curve`, and where the section is known what grows out of the plane."""
+    """Return `_curve`; in the plane, where the section is known, what grows out of it."""
     data = _curve(response)
+    if response.nondimensional[0].system.model.in_space:
+        data["stable"].attrs["long_name"] = "whether disturbances decay"
+        return data
     if response.beam.blade.section.out_of_plane is None:
         return data
     try:
@@ -255,6 +243,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
         "mark": ("point", _marks(response), "what is special about the point"),
         "cosine": (harmonics, response.harmonics.real, "q/L over cos kφ"),
         "sine": (harmonics, -response.harmonics.imag, "q/L over sin kφ"),
+        **{name: ("point", getattr(response, name), label) for name, label in SWINGS.items()},
     }
     backbone: Orbits | None = None
     if not weight:
@@ -273,15 +262,6 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
     )
     known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
     return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **known})
-
-
-@_described.register
-def _(response: SpaceForcedResponse) -> xr.Dataset:
-    """Return it as in the plane; q is the gauge, lag, flap and twist are the tip's amplitudes."""
-    data = _curve(response)
-    data["stable"].attrs["long_name"] = "whether disturbances decay"
-    swings = {name: ("point", getattr(response, name), label) for name, label in SWINGS.items()}
-    return data.merge(dataset(swings, {}))
 
 
 def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:

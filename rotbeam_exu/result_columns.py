@@ -14,12 +14,11 @@ import numpy as np
 from analytic.exact.free.branches import BackboneBranch
 from analytic.exact.free.curve import BackboneCurve
 from analytic.exact.free.leaving import LeavingBranch
-from analytic.exact.free.orbits import Orbits, SpaceOrbits
+from analytic.exact.free.orbits import Orbits
 from analytic.exact.linear.campbell import Campbell
-from analytic.exact.linear.modes import LinearModes
 from analytic.exact.plane.planarity import PlanarStability
 from analytic.exact.plane.stability_limit import StabilityLimit
-from analytic.exact.space.modes import SpaceModes
+from analytic.exact.space.modes import LinearModes
 from analytic.exact.space.steady_state import SteadyState
 from analytic.reduced.tables import PaperTable
 from analytic.spin_up.quiet import QuietRamps
@@ -76,6 +75,13 @@ def _columns(dims: Dims, **labels: str) -> dict[str, Column]:
     return {name: _own(name, dims, label) for name, label in labels.items()}
 
 
+SWINGS = {
+    "lag": "half the way of the tip in lag over L",
+    "flap": "half the way of the tip in flap over L",
+    "twist": "half the swing of the tip's section [rad]",
+}
+"""Amplitudes of the tip in space, with their labels."""
+
 _ORBITS = _columns(
     "orbit",
     amplitude="peak amplitude |q|/L",
@@ -89,17 +95,10 @@ _OF_ORBITS = ("omega", "mode", "omega_n", "lambda_omega", "lambda_omega_error")
 _POINTS = _columns("point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]") | {
     "mark": ("point", "what is special about the point", lambda found: [*found.marks])
 }
-SWINGS = {
-    "lag": "half the way of the tip in lag over L",
-    "flap": "half the way of the tip in flap over L",
-    "twist": "half the swing of the tip's section [rad]",
-}
-"""Amplitudes of the tip in space, with their labels."""
 _FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
 
 COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
-    Orbits: (_ORBITS, "beam", _OF_ORBITS),
-    SpaceOrbits: (_ORBITS | _columns("orbit", **SWINGS), "beam", _OF_ORBITS),
+    Orbits: (_ORBITS | _columns("orbit", **SWINGS), "beam", _OF_ORBITS),
     BackboneBranch: (
         _POINTS | _columns("point", piece="0 on the main path, then the tongue's number"),
         "beam", ("omega", "mode"),
@@ -116,13 +115,12 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
         },
         "beam", ("omega", "mode", "omega_n", "holds_up_to", "error"),
     ),
-    LinearModes: (_FREQUENCY, "beam", ("omega",)),
-    SpaceModes: (
+    LinearModes: (
         _FREQUENCY | {
             f"{name}_share": _part("shares", k, "mode", f"share of {name} in the kinetic energy")
             for k, name in enumerate(("flap", "lag", "torsion"))
         },
-        "blade", ("omega", "error"),
+        "beam", ("omega", "error"),
     ),
     SteadyState: (
         {

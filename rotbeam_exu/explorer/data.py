@@ -203,9 +203,8 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
     # The midpoints of half a period, which symmetry makes enough.
     phase = np.pi * (np.arange(32) + 0.5) / 32
     points = np.linspace(0.0, beam.length, _AXIS_POINTS)
-    axes = [
-        _axis_harmonics(*backbone.axis(i, points, phase)) for i in range(backbone.amplitude.size)
-    ]
+    places = [backbone.axis(i, points, phase) for i in range(backbone.amplitude.size)]
+    axes = [_axis_harmonics(place[..., 0], place[..., 1]) for place in places]
     axis_x, axis_y = (np.array(parts) / beam.length for parts in zip(*axes, strict=True))
     along = ("a", "k", "point")
     orbits = dataset(

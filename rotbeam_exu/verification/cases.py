@@ -54,7 +54,7 @@ class Asked(StrEnum):
 
 
 TIP = ("lag", "flap", "twist")
-"""The tip in space, as `SpaceResponse` has it: two places [m], and the section's turn [rad]."""
+"""The tip in space, as `SpinUpResponse` has it: two places [m], and the section's turn [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)

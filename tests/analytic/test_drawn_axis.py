@@ -10,8 +10,9 @@ from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
 def test_axis_of_an_orbit_agrees_with_its_state(beam, omega):
     backbone = periodic_orbits(beam, omega, [0.3])
     points, phases = np.linspace(0.0, beam.length, 9), np.array([0.3, 2.0, 5.0])
-    x, y = backbone.axis(0, points, phases)
-    assert x.shape == y.shape == (3, 9)
+    x, y, z = np.moveaxis(backbone.axis(0, points, phases), -1, 0)
+    assert x.shape == (3, 9)
+    assert not z.any()
     for k, phase in enumerate(phases):
         state = backbone.state(0, points, phase)
         np.testing.assert_allclose(x[k], points + state.u, atol=1e-12)
@@ -22,7 +23,7 @@ def test_axis_of_a_spin_up_is_the_beam(beam):
     times, points = np.linspace(0.0, 4.0, 41), np.linspace(0.0, beam.length, 401)
     spin_up = SpinUp(omega=6.0, ramp_time=3.0)
     response = spin_up_response(beam, spin_up, times, tolerance=1e-6, points=points)
-    assert response.axis.shape == (41, 401, 2)
+    assert response.axis.shape == (41, 401, 3)
     np.testing.assert_allclose(response.axis[:, -1, 1], response.q, atol=1e-10)
     np.testing.assert_allclose(response.axis[:, 0], 0.0, atol=1e-12)
     np.testing.assert_allclose(response.axis[0, :, 0], points, atol=1e-12)

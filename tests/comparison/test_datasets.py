@@ -52,7 +52,6 @@ def forced(blade, omega, frequencies):
 
 MADE = {
     "Orbits": lambda: analytic.periodic_orbits(BEAM, 6.0, [0.1, 0.2]),
-    "SpaceOrbits": lambda: analytic.periodic_orbits(TWISTED, 1.0, [0.02]),
     "BackboneBranch": branch,
     "LeavingBranch": lambda: (
         analytic.backbone(BEAM.with_section_out_of_plane(0.9, 0.8), 0.0, functions=8)
@@ -60,16 +59,13 @@ MADE = {
     ),
     "BackboneCurve": lambda: analytic.backbone_curve(BEAM, 6.0, up_to=0.1),
     "LinearModes": lambda: analytic.linear_modes(BEAM, 6.0),
-    "SpaceModes": lambda: analytic.linear_modes(TWISTED, 1.0),
     "SteadyState": lambda: analytic.steady_state(TWISTED, 1.0),
     "LinearResponse": lambda: analytic.linear_response(BEAM, MOTION, TIMES),
     "QuietRamps": lambda: analytic.quiet_ramp_times(BEAM, 2.0, longest=4.4, tolerance=1e-3),
     "SteadyOscillation": oscillating,
     "PaperTable": lambda: analytic.paper_table(5),
     "SpinUpResponse": lambda: spun(BEAM),
-    "SpaceResponse": lambda: spun(TWISTED),
     "ForcedResponse": lambda: forced(BEAM, 6.0, [3.7, 3.8]),
-    "SpaceForcedResponse": lambda: forced(TWISTED, 1.0, [3.4, 3.6]),
     "PlanarStability": lambda: analytic.planar_stability(STRIP, 6.0, [0.02, 0.05]),
     "StabilityLimit": limit,
     "Campbell": lambda: analytic.campbell(BEAM, [0.0, 6.0], 2),
@@ -78,6 +74,13 @@ MADE = {
     ),
 }  # fmt: skip
 # What is computed when it is asked, and inputs.
+IN_SPACE = {
+    "LinearModes": lambda: analytic.linear_modes(TWISTED, 1.0),
+    "Orbits": lambda: analytic.periodic_orbits(TWISTED, 1.0, [0.02]),
+    "SpinUpResponse": lambda: spun(TWISTED),
+    "ForcedResponse": lambda: forced(TWISTED, 1.0, [3.4, 3.6]),
+}
+_LONG = IN_SPACE["ForcedResponse"], MADE["LeavingBranch"]
 NO_RESULTS = {"Backbone", "FourierRamp", "ReducedModel", "FloatArray", "float | FloatArray", "Any"}
 NO_RESULTS |= {"Path", "Callable[[FloatArray], BeamState]", "xr.Dataset"}
 
@@ -98,16 +101,18 @@ def test_no_result_of_a_public_function_is_without():
 
 
 @pytest.mark.parametrize(
-    "kind",
+    ("kind", "made"),
     [
         pytest.param(
-            kind, marks=pytest.mark.slow if kind in ("SpaceForcedResponse", "LeavingBranch") else ()
+            kind,
+            made,
+            marks=pytest.mark.slow if made in _LONG else (),
         )
-        for kind in MADE
+        for kind, made in (*MADE.items(), *IN_SPACE.items())
     ],
 )
-def test_a_result_is_labeled_saved_and_tidy(kind, tmp_path):
-    result = MADE[kind]()
+def test_a_result_is_labeled_saved_and_tidy(kind, made, tmp_path):
+    result = made()
     assert type(result).__name__ == kind
     data = dataset_of(result)
     assert data.data_vars

@@ -37,7 +37,7 @@ def test_both_views_show_the_same_beam_turned(response):
         angle = response.spin_up.angle(response.time[n])
         np.testing.assert_allclose(inertial, rotating * np.exp(1j * angle), atol=1e-12)
         tip = inertial[-1]
-        np.testing.assert_allclose([tip.real, tip.imag], response.tip[n], atol=1e-9)
+        np.testing.assert_allclose([tip.real, tip.imag], response.from_axis[n, :2], atol=1e-9)
         assert dot == (response.time[n], response.q[n] / response.beam.length)
         assert rotating[-1].imag == pytest.approx(response.q[n], abs=1e-9)
     animation._fig.draw_without_rendering()  # only now the axes take their shape
@@ -74,7 +74,7 @@ def seen_in(ax):
 def from_outside(response):
     """Positions (times, points) in the inertial frame, complex [m]."""
     turn = np.exp(1j * response.spin_up.angle(response.time))
-    return response.axis @ [1.0, 1j] * turn[:, None]
+    return response.axis[..., :2] @ [1.0, 1j] * turn[:, None]
 
 
 def test_two_models_are_seen_from_outside_on_one_scale(two_models, side_by_side):

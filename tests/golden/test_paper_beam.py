@@ -75,7 +75,8 @@ def orbits(beam):
 
 def spin_up(beam):
     found = spin_up_response(beam, SpinUp(omega=6.0, ramp_time=3.0), np.linspace(0.0, 5.0, 11))
-    return {"q": found.q.tolist(), "q_dot": found.q_dot.tolist(), "tip": found.tip.tolist()}
+    tip = found.from_axis[:, :2].tolist()
+    return {"q": found.q.tolist(), "q_dot": found.q_dot.tolist(), "tip": tip}
 
 
 def simulation(beam):

@@ -57,6 +57,8 @@ class Continuum(Kinematics):
     slenderness is zero.
     """
 
+    in_space: ClassVar[bool] = False
+    trapeze: ClassVar[bool] = False
     has_dear_tangent: ClassVar[bool] = False
     """Whether one costs many residuals, so that it serves in the steps of time after it."""
 
@@ -275,6 +277,14 @@ class Continuum(Kinematics):
         spin = q_dot[..., : self.bending]
         rotary = np.sum(spin * (spin @ self._rotary_mass), axis=-1)
         return np.asarray(0.5 * (self._squared(self.slope_rate(q, q_dot)) + rotary))
+
+    def shares(self, q: FloatArray, shapes: FloatArray, setting: float) -> FloatArray:
+        """Return the shares of flap, lag and torsion in their kinetic energy, (count, 3)."""
+        slope, spin = self.slope_rate(q, shapes), shapes[:, : self.bending]
+        across = self._squared(slope - slope.real) / (
+            self._squared(slope) + np.sum(spin * (spin @ self._rotary_mass), axis=1)
+        )
+        return np.outer(across, [np.sin(setting) ** 2, np.cos(setting) ** 2, 0.0])
 
     def _squared(self, slope: ComplexArray) -> FloatArray:
         squared: FloatArray = np.sum((slope.conj() * (slope @ self._green)).real, axis=-1)

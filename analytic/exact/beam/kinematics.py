@@ -125,9 +125,10 @@ class Kinematics:
         """Return the integral from the clamp to `x` of a slope given at the Gauss points."""
         return slope @ self.grid.integral(x).T
 
-    def axis(self, q: FloatArray, x: FloatArray) -> ComplexArray:
-        """Return the places z of material points `x`, (samples, points)."""
-        return self.integrated(self.slope(q), x)
+    def places(self, q: FloatArray, x: FloatArray, setting: float) -> FloatArray:
+        """Return the places of material points `x`, (samples, points, 3), as `standing` does."""
+        z = self.integrated(self.slope(q), x)
+        return np.asarray(np.stack((z.real, z.imag), axis=-1) @ set_at(setting)[:, :2].T)
 
     def standing(
         self, q: FloatArray, x: FloatArray, setting: float
@@ -136,13 +137,19 @@ class Kinematics:
 
         In the frame of the clamp, of a blade set at `setting` [rad]; axes of sections in columns.
         """
-        z, angle = self.axis(q, x), self.split(q)[0] @ self._bases(x)[0].T
-        places = np.stack((z.real, z.imag), axis=-1) @ set_at(setting)[:, :2].T
-        return places, in_plane_of_bending(angle, setting)
+        angle = self.split(q)[0] @ self._bases(x)[0].T
+        return self.places(q, x, setting), in_plane_of_bending(angle, setting)
 
-    def deflection(self, tip: ComplexArray) -> FloatArray:
-        """Return the tip's deflection, normal to the clamp's line."""
-        return tip.imag
+    def deflection(self, q: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the tip's deflection in the plane of bending, and its rate, (samples,) each."""
+        return self.tip(q).imag, self.tip_rate(q, q_dot).imag
+
+    def moved(
+        self, q: FloatArray, shapes: FloatArray, x: FloatArray, setting: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return how small changes (count, n) move points, (3, points, count), and twist them."""
+        z = self.integrated(self.slope_rate(q, shapes), x).T
+        return np.tensordot(set_at(setting)[:, :2], (z.real, z.imag), 1), np.zeros(z.shape)
 
     def tip(self, q: FloatArray) -> ComplexArray:
         """Return the tip's position z(1), (samples,)."""

@@ -130,6 +130,7 @@ class AtConstantRate(Discretized):
     """Equations of a blade in a frame that turns at a constant rate, in the plane or in space."""
 
     rate: float
+    direction: tuple[float, ...] = (0.0, 1.0, 0.0)
     driven: ClassVar[bool] = False
     stiff: ClassVar[bool] = False
 
@@ -254,7 +255,12 @@ def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
 def state_of(
     beam: AnyBlade, model: Continuum, q: FloatArray, q_dot: FloatArray, x: ArrayLike
 ) -> BeamState:
-    """Return the state of coordinates and their rates (n,) at the points `x` [m]."""
+    """Return the state of coordinates and their rates (n,) at the points `x` [m]; of the plane."""
+    if model.in_space:
+        raise ValueError(
+            "the state of a blade in space is more than u, v and their rates: take axis, at two "
+            "phases for the rates"
+        )
     at, length, per_second = points_of_beam("x", x, beam.length), beam.length, beam.frequency_scale
     slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
     z = length * model.integrated(model.slope(q), at)

@@ -24,7 +24,7 @@ from ..linear.modes import linear_modes
 from ..space.continuum import SpaceContinuum
 from ..space.modes import DIRECTIONS, require_gauge
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
-from .forced_orbits import ForcedResponse, ResponseNotReachedError, SpaceForcedResponse
+from .forced_orbits import ForcedResponse, ResponseNotReachedError
 from .transient import pushes, unit_load
 
 _LARGEST = 0.95  # |q|/L to which a response is followed
@@ -138,11 +138,6 @@ def forced_response(
     gauge : {"lag", "flap"}
         Place of the tip whose greatest deflection is the amplitude; "flap" of a blade in space.
 
-    Returns
-    -------
-    ForcedResponse
-        Of a blade in space a `SpaceForcedResponse`, with `lag`, `flap` and `twist`.
-
     Raises
     ------
     ValueError, TypeError
@@ -195,7 +190,7 @@ def forced_response(
     else:
         highest, asked = rotation_speed(omega), _ascending("frequencies", frequencies)
         warn_if_rpm(beam, highest)
-    steady, tail, kind = _planar_or_spatial(beam, highest, theory, functions, gauge)
+    steady, tail = _planar_or_spatial(beam, highest, theory, functions, gauge)
     if not any(beam.unit.damping):
         _require_no_resonance(beam, None if by_speed else highest, theory, asked)
     # Deflections are told from the steady state, at changing speeds from that at rest.
@@ -206,7 +201,7 @@ def forced_response(
     except NoOrbitError as failed:
         response, last = None, f" at {asked[0]:g} rad/s"
         if failed.last:
-            response = _packed(kind, beam, load, theory, failed.last)
+            response = _packed(beam, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
         free = lives_in_space(beam) and not beam.damping.bending
@@ -215,13 +210,13 @@ def forced_response(
         raise ResponseNotReachedError(
             f"the response to {load} was not found{last}: {failed}; {remedy}", response
         ) from None
-    return _packed(kind, beam, load, theory, found)
+    return _packed(beam, load, theory, found)
 
 
 def _planar_or_spatial(
     beam: AnyBlade, omega: float, theory: Theory, functions: int, gauge: str
-) -> tuple[SteadyBeam | SpaceBlade, float, type[ForcedResponse]]:
-    """Return the blade in steady rotation at ω [rad/s], the tail of `Care`, and the response."""
+) -> tuple[SteadyBeam | SpaceBlade, float]:
+    """Return the blade in steady rotation at ω [rad/s], and the tail of `Care`."""
     require_gauge(gauge)
     if not lives_in_space(beam):
         if gauge == "flap":
@@ -229,11 +224,11 @@ def _planar_or_spatial(
                 "this blade stays in its plane under the load, and gauge is 'flap': leave it out"
             )
         model = resolved_model(beam, 1, theory, functions)
-        return steady_rotation(beam, omega, model), 1.0, ForcedResponse
+        return steady_rotation(beam, omega, model), 1.0
     functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
     in_space = space_continuum(beam, theory, functions // 2)
     steady = replace(space_rotation(beam, omega, in_space), direction=DIRECTIONS[gauge])
-    return steady, in_space.functions.blade.tail, SpaceForcedResponse
+    return steady, in_space.functions.blade.tail
 
 
 def _ascending(name: str, values: Any) -> FloatArray:
@@ -272,14 +267,12 @@ def _require_no_resonance(
             )
 
 
-def _packed(
-    kind: type[ForcedResponse], beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]
-) -> ForcedResponse:
+def _packed(beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]) -> ForcedResponse:
     orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
-    return kind(
-        **kind.told(beam, orbits),
+    return ForcedResponse(
+        **ForcedResponse.told(beam, orbits),
         load=load,
         theory=theory,
         omega=beam.frequency_scale * np.array([o.system.speed(o.frequency) for o in orbits]),

@@ -16,7 +16,7 @@ from ...plotting import axes_or_new, draw_response
 from ...theory import Theory
 from ...threads import one_thread
 from ..free.backbone import Backbone, backbone
-from ..free.branch import Branch, SpaceOrbitSet, SpecialPoint
+from ..free.branch import Branch, SpecialPoint
 from ..plane.planarity import GrowthOutOfPlane, grown_about
 from ..space.modes import space_modes
 
@@ -39,7 +39,8 @@ class ForcedResponse(Branch):
     """Periodic response under one load, in order along the curve; made by `forced_response`.
 
     The phase φ = νt of everything is the drive's: the load is greatest at φ = 0. Under gravity φ is
-    the angle θ of the clamp.
+    the angle θ of the clamp. Of a blade in space q is the gauge, the tip's place along lag or flap
+    less that of the steady state, under gravity less that at rest.
 
     Attributes
     ----------
@@ -146,10 +147,18 @@ class ForcedResponse(Branch):
         blade, omega = undamped(self.beam), float(self.omega[0])
         return backbone(blade, omega, theory=self.theory, **self._leans_on(blade, omega))
 
+    @property
+    def gauge(self) -> Literal["lag", "flap"]:
+        """Place of the tip whose greatest deflection is the amplitude."""
+        return "flap" if self.nondimensional[0].system.steady.direction[2] else "lag"
+
     def _leans_on(self, blade: AnyBlade, omega: float) -> dict[str, Any]:
         """Return the mode and the gauge of the backbone."""
-        del blade, omega
-        return {}
+        if not self.nondimensional[0].system.model.in_space:
+            return {}
+        flap, lag, _ = space_modes(blade, omega, _LOOKED_AT, self.theory).shares.T
+        more = flap > lag if self.gauge == "flap" else lag > flap
+        return {"mode": int(np.argmax(more)) + 1, "gauge": self.gauge}
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.
@@ -187,22 +196,3 @@ class ForcedResponse(Branch):
             f"{'folds at ' + folds if folds else 'no folds'}; "
             f"residual at most {self.residual.max():.1e}"
         )
-
-
-class SpaceForcedResponse(SpaceOrbitSet, ForcedResponse):
-    """Periodic response of a blade in space under one load; made by `forced_response`.
-
-    As `ForcedResponse`, but q is the gauge, the tip's place along lag or flap less that of the
-    steady state, under gravity less that at rest.
-    """
-
-    @property
-    def gauge(self) -> Literal["lag", "flap"]:
-        """Place of the tip whose greatest deflection is the amplitude."""
-        return "flap" if self.nondimensional[0].system.steady.direction[2] else "lag"
-
-    def _leans_on(self, blade: AnyBlade, omega: float) -> dict[str, Any]:
-        """Return the first mode that has more of the gauge, and the gauge."""
-        flap, lag, _ = space_modes(blade, omega, _LOOKED_AT, self.theory).shares.T
-        more = flap > lag if self.gauge == "flap" else lag > flap
-        return {"mode": int(np.argmax(more)) + 1, "gauge": self.gauge}

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import ComplexArray, FloatArray, few_at_once
+from ...arrays import FloatArray, few_at_once
 from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import finite_number, points_of_beam, positive, times_from_rest
 from ...loads import Load, loads_in_time, rippled
@@ -22,7 +22,7 @@ from ..beam.state import SectionLoads, in_newtons
 from ..beam.steady import blade_continuum, steady_rotation
 from ..space.modes import flap_shape
 from ..space.steady import lives_in_space, require_bent, space_continuum, space_rotation
-from .transient import BladeMotion, drive, grid_of, integrated
+from .transient import drive, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
@@ -45,20 +45,24 @@ class SpinUpResponse:
         Times [s].
     q : ndarray (times,)
         Deflection of the tip across the turning line of the clamp, Eq. 16 [m]; it lags behind
-        (q < 0) while the rotation speeds up.
+        (q < 0) while the rotation speeds up. Of a blade in space its lag.
     q_dot : ndarray (times,)
         Its rate in the rotating frame, Eq. 16 [m/s].
-    tip : ndarray (times, 2)
-        Position of the tip in the inertial frame [m].
+    tip : ndarray (times, 3)
+        Place of the tip from the clamp [m] in the frame that turns with it: along the clamp, in the
+        direction of rotation (lag) and normal to both (flap).
     points : ndarray (points,)
         Material points asked for [m].
-    axis : ndarray (times, points, 2)
-        Their positions in the frame that turns with the clamp [m].
+    axis : ndarray (times, points, 3)
+        Their places, as that of the tip [m].
+    twist : ndarray (times,)
+        How far the load turns the tip's section out of its upright [rad]: arctan2(T32, T33) of the
+        rotation T from the unloaded section to the loaded one, in the axes of `tip`.
     error : float
-        Estimated error of the tip's position over the largest |q|: the difference from the next
-        coarser solution in step and functions, hence an upper estimate.
+        Estimated error of the tip's position over the largest |q|, and of the twist: the difference
+        from the next coarser solution in step and functions, hence an upper estimate.
     steps, functions : int
-        Steps of order 15 and functions for θ of the solution returned.
+        Steps of order 15 and functions for θ, or each curvature, of the solution returned.
     """
 
     beam: AnyBlade
@@ -71,6 +75,7 @@ class SpinUpResponse:
     tip: FloatArray = field(repr=False)
     points: FloatArray = field(repr=False)
     axis: FloatArray = field(repr=False)
+    twist: FloatArray = field(repr=False)
     error: float
     steps: int
     functions: int
@@ -89,47 +94,7 @@ class SpinUpResponse:
         ]
         place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
         standing, loads = (place, section), (force, moment)
-        return in_newtons(self.beam, at, standing, loads, self.theory.trapeze)
-
-    @staticmethod
-    def in_units(
-        beam: AnyBlade, motion: BladeMotion, turned: ComplexArray
-    ) -> dict[str, FloatArray]:
-        """Return q, q_dot, tip and axis [m] of a nondimensional motion; `turned` is exp(iθ)."""
-        z, unit = beam.length * motion.tip, beam.unit
-        # Out of the plane of rotation the deflection has a share that is not seen here.
-        tip = (beam.length * unit.hub + z.real + 1j * unit.setting * z.imag) * turned
-        return {
-            "q": z.imag,
-            "q_dot": beam.length * beam.frequency_scale * motion.tip_rate.imag,
-            "tip": np.stack((tip.real, tip.imag), axis=-1),
-            "axis": beam.length * np.stack((motion.axis.real, motion.axis.imag), axis=-1),
-        }
-
-
-@dataclass(frozen=True, kw_only=True)
-class SpaceResponse(SpinUpResponse):
-    """Response to a spin-up of a blade that is not planar; made by `spin_up_response`.
-
-    In the frame that turns with the clamp: along the clamp, in the direction of rotation (lag) and
-    normal to both (flap). As `SpinUpResponse`, but for these; q is the lag.
-
-    Attributes
-    ----------
-    tip : ndarray (times, 3)
-        Place of the tip from the clamp [m].
-    axis : ndarray (times, points, 3)
-        Places of the points from the clamp [m].
-    twist : ndarray (times,)
-        How far the load turns the tip's section out of its upright [rad]: arctan2(T32, T33) of the
-        rotation T from the unloaded section to the loaded one, in the axes of `tip`.
-    error : float
-        Of the twist as well, in radians over the largest deflection over the length.
-    functions : int
-        Functions for each curvature.
-    """
-
-    twist: FloatArray = field(repr=False)
+        return in_newtons(self.beam, at, standing, loads, model.trapeze)
 
     @property
     def lag(self) -> FloatArray:
@@ -141,14 +106,16 @@ class SpaceResponse(SpinUpResponse):
         """Place of the tip normal to it and to the clamp [m], (times,)."""
         return self.tip[:, 2]
 
-    @staticmethod
-    def in_units(
-        beam: AnyBlade, motion: BladeMotion, turned: ComplexArray
-    ) -> dict[str, FloatArray]:
-        """Return q, q_dot, tip and axis [m] of a nondimensional motion, in the turning frame."""
-        tip, axis = beam.length * motion.tip, beam.length * motion.axis
-        rate = beam.length * beam.frequency_scale * motion.tip_rate[:, 1]
-        return {"q": tip[:, 1], "q_dot": rate, "tip": tip, "axis": axis, "twist": motion.twist}
+    @property
+    def from_axis(self) -> FloatArray:
+        """Places of the tip from the axis of rotation in the inertial frame [m], (times, 3)."""
+        blade = self.beam.blade
+        c, s = math.cos(blade.line.precone), math.sin(blade.line.precone)
+        along = c * (self.tip[:, 0] + blade.hub_radius) - s * self.tip[:, 2]
+        up = s * self.tip[:, 0] + c * self.tip[:, 2]
+        angle = rippled(self.spin_up, self.loads).angle(self.time)
+        z = (along + 1j * self.tip[:, 1]) * np.exp(1j * angle)
+        return np.stack((z.real, z.imag, up), axis=-1)
 
 
 @one_thread
@@ -224,7 +191,6 @@ def spin_up_response(
         )
     space = lives_in_space(beam, loads) or bool(kick or bent)
     turning: Any = space_rotation if space else steady_rotation
-    kind = SpaceResponse if space else SpinUpResponse
     coarser, error, size = None, math.inf, 0.0
     fewest = math.ceil(_A_DIGIT * digits)
     # The kinks of a table leave an algebraic tail.
@@ -247,18 +213,22 @@ def spin_up_response(
             coarser = None
             continue
         if coarser is not None:
-            size = float(np.abs(model.deflection(finer.tip)).max())
+            size = float(np.abs(finer.tip[:, 1:]).max())
             changes = finer.tip - coarser.tip, finer.twist - coarser.twist
             error = max(float(np.abs(change).max()) for change in changes) / (size or 1.0)
             if error <= tolerance:
-                return kind(
+                return SpinUpResponse(
                     beam=beam,
                     spin_up=spin_up,
                     loads=loads,
                     theory=theory,
                     time=time,
                     points=beam.length * along,
-                    **kind.in_units(beam, finer, np.exp(1j * rotation.angle(time))),
+                    q=beam.length * finer.q,
+                    q_dot=beam.length * beam.frequency_scale * finer.q_dot,
+                    tip=beam.length * finer.tip,
+                    axis=beam.length * finer.axis,
+                    twist=finer.twist,
                     error=error,
                     steps=grid.size - 1,
                     functions=functions,

@@ -36,16 +36,16 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
 
 
 class BladeMotion(NamedTuple):
-    """The tip's place, rate and twist (times, ...), and places (times, points, ...), without units.
+    """Deflection and rate, twist, places of the tip (times, 3) and points (times, points, 3).
 
-    In the rotating frame: complex numbers in the plane, three components in space. `state` has q,
-    q̇ and q̈, (3, times, n).
+    Without units, in the frame of the clamp. `state` has coordinates and rates, (3, times, n).
     """
 
-    tip: Any
-    tip_rate: Any
+    q: FloatArray
+    q_dot: FloatArray
     twist: FloatArray
-    axis: Any
+    tip: FloatArray
+    axis: FloatArray
     state: FloatArray
 
 
@@ -153,9 +153,10 @@ def integrated(
             state[:, inside] = positions, velocities, method.values(at) @ acceleration
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
+    at, setting = np.append(points, 1.0), beam.setting_angle
     parts = [
-        (model.tip(q), model.tip_rate(q, q_dot), model.tip_turn(q), model.axis(q, points))
+        (*model.deflection(q, q_dot), model.tip_turn(q), model.places(q, at, setting))
         for q, q_dot, _ in (state[:, few] for few in few_at_once(time.size))
     ]
-    tip, rate, twist, axis = map(np.concatenate, zip(*parts, strict=True))
-    return BladeMotion(tip, rate, twist, axis, state)
+    deflection, rate, twist, places = map(np.concatenate, zip(*parts, strict=True))
+    return BladeMotion(deflection, rate, twist, places[:, -1], places[:, :-1], state)

@@ -18,7 +18,7 @@ from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_ro
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
 from .leaving import LeavingBranch, leaving_branch
-from .orbits import Orbits, SpaceOrbits, orbits_of
+from .orbits import Orbits, orbits_of
 from .path import ModePath
 
 _NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
@@ -32,12 +32,10 @@ class Backbone(ModePath):
     path of orbits.
     """
 
-    _kind: ClassVar[type[Orbits]] = Orbits
-
     @one_thread
     def orbits(self, amplitudes: float | Sequence[float] | FloatArray) -> Orbits:
         """Return the orbits of peak tip deflections |q|/L, as `periodic_orbits` does."""
-        return orbits_of(self, amplitudes, self._kind)
+        return orbits_of(self, amplitudes)
 
     @one_thread
     def curve(self, up_to: float = 0.6) -> BackboneCurve:
@@ -128,7 +126,6 @@ class SpaceBackbone(Backbone):
 
     gauge: Literal["lag", "flap"] | None = None
 
-    _kind: ClassVar[type[Orbits]] = SpaceOrbits
     at_resonance: ClassVar[str] = "several orbits may have one amplitude there"
 
     def branch(self, up_to: float = 0.9) -> BackboneBranch:

@@ -83,17 +83,20 @@ class OrbitSet:
         (q,), (q_dot,), _ = orbit.coordinates(np.array([finite_number("phase", phase, "rad")]))
         return state_of(self.beam, orbit.system.model, q, q_dot, x)
 
-    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Return where the material points `x` [m] of orbit `i` are at the phases `phase` [rad].
+    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> FloatArray:
+        """Return the places of the material points `x` [m] of orbit `i`, (phases, points, 3).
 
-        Along and across the undeformed axis in the rotating frame [m], each (phases, points): the
-        deflected beam, as one draws it.
+        At the phases [rad], from the clamp [m]: along it, in the direction of rotation (lag) and
+        normal to both (flap). The frame turns with the clamp.
         """
-        orbit, length = self._orbit(i), self.beam.length
-        at = points_of_beam("x", x, length)
+        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
         q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        z = length * orbit.system.model.axis(q, at)
-        return z.real, z.imag
+        places = orbit.system.model.places(q, at, self.beam.setting_angle)
+        return np.asarray(self.beam.length * places)
+
+    def tip(self, i: int, phase: ArrayLike) -> FloatArray:
+        """Return the tip's places [m] at the phases [rad], as `axis`, (phases, 3)."""
+        return np.asarray(self.axis(i, self.beam.length, phase)[:, 0])
 
     def section_loads(self, i: int, x: ArrayLike, phase: ArrayLike) -> SectionLoads:
         """Return the sections at `x` [m] of orbit `i` at phases [rad], force and moment in them.
@@ -105,12 +108,7 @@ class OrbitSet:
         state = (*orbit.coordinates(phases), *orbit.drive(phases))
         standing = orbit.system.model.standing(state[0], at, self.beam.setting_angle)
         loads = orbit.system.section_loads(at, *state)
-        return in_newtons(self.beam, at, standing, loads, self._trapeze)
-
-    @property
-    def _trapeze(self) -> bool:
-        """Whether twist shortens the axis; none does in the plane."""
-        return False
+        return in_newtons(self.beam, at, standing, loads, orbit.system.model.trapeze)
 
     @cached_property
     def _stability(self) -> tuple[Multipliers, ...]:
@@ -130,40 +128,9 @@ class OrbitSet:
 
         No Floquet multiplier lies outside the unit circle: of a free orbit in the plane for the
         lowest six modes, which the integration over a period resolves. Of motion out of the
-        plane `planar_stability` tells.
+        plane `planar_stability` tells; of a blade in space this covers all directions.
         """
         return np.array([found.stable(self._tolerance) for found in self._stability])
-
-
-class SpaceOrbitSet(OrbitSet):
-    """Periodic orbits of a blade in space; base of `SpaceOrbits` and `SpaceForcedResponse`.
-
-    `stable` covers disturbances in all directions.
-    """
-
-    @property
-    def _trapeze(self) -> bool:
-        return bool(self.nondimensional[0].system.model.functions.theory.trapeze)
-
-    def tip(self, i: int, phase: ArrayLike) -> FloatArray:
-        """Return the tip's places from the clamp [m] at the phases [rad], (phases, 3).
-
-        Along the clamp, in the direction of rotation (lag) and normal to both (flap).
-        """
-        return np.asarray(self.axis(i, self.beam.length, phase)[:, 0])
-
-    def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> Any:
-        """Return the places of the material points `x` [m], as `tip`, (phases, points, 3)."""
-        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
-        q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        return self.beam.length * orbit.system.model.axis(q, at)
-
-    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
-        """Refuse: a state of the plane does not hold it; take `axis`."""
-        raise ValueError(
-            "the state of a blade in space is more than u, v and their rates: take axis, at two "
-            "phases for the rates"
-        )
 
     @property
     def lag(self) -> FloatArray:
@@ -192,7 +159,8 @@ class SpaceOrbitSet(OrbitSet):
         for orbit in self.nondimensional:
             count, model = 8 * orbit.harmonics, orbit.system.model
             q, _, _ = orbit.coordinates(2.0 * np.pi * np.arange(count) / count)
-            series = np.fft.rfft(np.column_stack((model.tip(q)[:, 1:], model.tip_turn(q))), axis=0)
+            place = model.places(q, np.ones(1), self.beam.setting_angle)[:, 0]
+            series = np.fft.rfft(np.column_stack((place[:, 1:], model.tip_turn(q))), axis=0)
             found.append(np.fft.irfft(series, _SAMPLES, axis=0) * _SAMPLES / count)
         return found
 

@@ -34,7 +34,7 @@ from ...plotting import axes_or_new, draw_response
 from ...settled import settled
 from ..beam.steady import BeamOrbit
 from ..space.steady import SpaceBlade, space_continuum, space_rotation
-from .branch import Branch, SpaceOrbitSet, SpecialPoint
+from .branch import Branch, SpecialPoint
 from .path import ModePath
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ _BEGIN, _LONGEST = 0.005, 0.2  # steps of the arclength, over the size of the pl
 
 
 @dataclass(frozen=True, kw_only=True)
-class LeavingBranch(SpaceOrbitSet, Branch):
+class LeavingBranch(Branch):
     """Orbits in space, in order from the planar orbit they leave; by `Backbone.leaving`.
 
     Attributes

@@ -16,7 +16,7 @@ from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
 from ..beam.steady import BeamOrbit
-from .branch import OrbitSet, SpaceOrbitSet
+from .branch import OrbitSet
 from .internal_resonance import nearest_resonance, outstanding, warn_of_resonances
 from .path import AmplitudeNotReachedError, ModePath
 
@@ -30,7 +30,8 @@ _RELAID = 3  # times, each on half as many functions again
 class Orbits(OrbitSet):
     """Free periodic orbits of the exact beam at one speed; made by `periodic_orbits`.
 
-    Time and phase start where the beam is straight and q rises, in every method.
+    Time and phase start where the beam is straight and q rises, in every method. Of a blade in
+    space q is the gauge, the tip's place along lag or flap less that of the steady state.
 
     Attributes
     ----------
@@ -126,15 +127,7 @@ class Orbits(OrbitSet):
         )
 
 
-class SpaceOrbits(SpaceOrbitSet, Orbits):
-    """Free periodic orbits of a blade in space; made by `periodic_orbits`.
-
-    As `Orbits`, but q is the gauge, the tip's place along lag or flap less that of the steady
-    state, and the amplitude its peak, to both sides the same.
-    """
-
-
-def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits]) -> Orbits:
+def orbits_of(of: ModePath, amplitudes: ArrayLike) -> Orbits:
     """Return the orbits of a backbone, as `periodic_orbits` says."""
     asked = finite_values("amplitudes", amplitudes)
     if asked.min() <= 0.0 or asked.max() >= 1.0:
@@ -148,7 +141,7 @@ def orbits_of(of: ModePath, amplitudes: ArrayLike, kind: type[Orbits]) -> Orbits
     found = _confirmed(of, found)
     warn_of_resonances(of, found.values())
     kept = [found[a] for a in ascending[place].tolist() if a in found]
-    orbits = _packed(of, kept, kind) if kept else None
+    orbits = _packed(of, kept) if kept else None
     if orbits is None or refused:
         raise AmplitudeNotReachedError(refused, orbits)
     return orbits
@@ -207,12 +200,12 @@ def _why(of: ModePath, a: float) -> str:
     return f"{nearest}; ask for amplitudes beyond it: {of.at_resonance}"
 
 
-def _packed(of: ModePath, orbits: list[BeamOrbit], kind: type[Orbits]) -> Orbits:
+def _packed(of: ModePath, orbits: list[BeamOrbit]) -> Orbits:
     """Return the orbits as a value."""
     softening, error = of.softening()
     count = max(orbit.harmonics for orbit in orbits)
-    return kind(
-        **kind.told(of.beam, orbits),
+    return Orbits(
+        **Orbits.told(of.beam, orbits),
         omega=of.omega,
         mode=of.mode,
         omega_n=of.omega_n,

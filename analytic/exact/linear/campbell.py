@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise, product
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,9 +21,9 @@ from ...input_checks import finite_values, require_ascending, rotation_speed, wh
 from ...plotting import apart, axes_or_new, cycled, free_place
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..space.modes import space_modes_on
+from ..space.modes import LinearModes, space_modes_on
 from ..space.steady import lives_in_space
-from .modes import LinearModes, Plane, flap_blade, linear_modes, modes_on
+from .modes import Plane, flap_blade, linear_modes, modes_on
 
 if TYPE_CHECKING:
     from ...plotting import Axes
@@ -264,10 +264,9 @@ def _family(
 
     def modes_at(omega: float, near: Any = None) -> LinearModes:
         if not in_space:
-            return modes_on(model, bent, omega, wanted)
+            return modes_on(model, bent, omega, wanted, theory)
         torsion = plane == "torsion"
-        modes = space_modes_on(model, beam, omega, wanted, torsion=torsion, near=near)
-        return cast(LinearModes, modes)
+        return space_modes_on(model, beam, omega, wanted, torsion=torsion, near=near)
 
     found: list[LinearModes] = []
     for omega in speeds.tolist():

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
-from typing import Any, Literal, cast, get_args
+from dataclasses import replace
+from typing import Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ...arrays import ComplexArray, FloatArray, in_units
+from ...arrays import FloatArray, in_units
 from ...beam import AnyBlade, require_out_of_plane, warn_if_rpm
 from ...blade import Blade
-from ...input_checks import points_of_beam, rotation_speed, whole_number
+from ...input_checks import rotation_speed, whole_number
 from ...methods.system import inverse_eigenvalues
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
@@ -26,49 +25,11 @@ from ..beam.steady import (
     solve_modes,
     steady_rotation,
 )
-from ..space.modes import space_modes, torsion_modes
+from ..space.modes import LinearModes, space_modes, torsion_modes
 from ..space.steady import lives_in_space, space_rotation
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
-
-
-@dataclass(frozen=True, kw_only=True)
-class LinearModes:
-    """Modes of bending about the rotating steady state; made by `linear_modes`.
-
-    Attributes
-    ----------
-    beam, omega : as given
-    frequencies : ndarray (count,)
-        Natural frequencies in the rotating frame [rad/s], ascending.
-    coordinates : ndarray (count, n)
-        The modes in the energy norm of the discretization, by which `campbell` tells them apart.
-
-    Examples
-    --------
-    >>> from analytic import Beam, linear_modes
-    >>> modes = linear_modes(Beam.reference(), omega=6.0, count=2)
-    >>> print(modes.shapes([2.0, 4.0, 8.0]).round(4))
-    [[ 0.1307 -0.3935]
-     [ 0.3889 -0.6521]
-     [ 1.      1.    ]]
-    """
-
-    beam: AnyBlade
-    omega: float
-    frequencies: FloatArray
-    coordinates: FloatArray = field(repr=False)
-    model: Continuum = field(repr=False)
-    _slopes: ComplexArray = field(repr=False)
-
-    def shapes(self, x: ArrayLike) -> FloatArray:
-        """Return the deflections v at `x` [m], (points, count), 1 at the tip.
-
-        Only a mode whose tip moves more along the beam than across has u(L) = 1 instead.
-        """
-        at = points_of_beam("x", x, self.beam.length)
-        return self.model.integrated(self._slopes, at).imag.T
 
 
 Plane = Literal["lag", "flap", "torsion"]
@@ -101,9 +62,9 @@ def linear_modes(
     plane : str
         "lag" is the blade's own plane of bending, "flap" the plane normal to the plane of rotation.
         "flap" and "torsion" need a blade that bends in the plane of rotation and has a known
-        section out of it; torsion comes as `SpaceModes`. To this order they are independent of each
+        section out of it. To this order they are independent of each
         other. Of a blade with a twist, precone, prebend, sweep, offset, or a setting angle and a
-        known section out of the plane, they are not: then `SpaceModes` are all of them.
+        known section out of the plane, they are not: then these are all of them.
     theory : Theory
         Extension, shear, rotary inertia, trapeze effect; shear and rotary inertia not for "flap".
     functions : int
@@ -136,9 +97,9 @@ def linear_modes(
                 f"flap, lag and torsion of this blade go together, and plane is {plane!r}: leave "
                 "it out, and take the shares of each mode"
             )
-        return cast(LinearModes, space_modes(beam, omega, count, theory))
+        return space_modes(beam, omega, count, theory)
     if plane == "torsion":
-        return cast(LinearModes, torsion_modes(beam, omega, count, theory))
+        return torsion_modes(beam, omega, count, theory)
     if plane == "flap" and (theory.rotary_inertia or theory.shear is not None):
         raise ValueError(
             "rotary_inertia and shear of a theory are those of slices in the plane, and plane is "
@@ -147,7 +108,7 @@ def linear_modes(
     bent = flap_blade(beam) if plane == "flap" else beam
     # Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
     first = steady_rotation(bent, omega, resolved_model(bent, count, theory, functions))
-    (steady, modes), *_ = settled(
+    (steady, modes), _, error = settled(
         lambda steady: (steady, solve_modes(steady)),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
         _SETTLED,
@@ -155,7 +116,7 @@ def linear_modes(
         f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
         "rotate slower",
     )
-    return replace(_in_units(bent, omega, count, steady.model, modes), beam=beam)
+    return replace(_in_units(bent, omega, count, steady, modes, theory, error), beam=beam)
 
 
 def flap_blade(beam: AnyBlade) -> Blade:
@@ -174,22 +135,30 @@ def flap_blade(beam: AnyBlade) -> Blade:
     )
 
 
-def modes_on(model: Continuum, beam: AnyBlade, omega: float, count: int) -> LinearModes:
+def modes_on(
+    model: Continuum, beam: AnyBlade, omega: float, count: int, theory: Theory
+) -> LinearModes:
     """Return the modes on a discretization that is known to resolve them, unchecked."""
-    modes = solve_modes(steady_rotation(beam, omega, model))
-    return _in_units(beam, omega, count, model, modes)
+    steady = steady_rotation(beam, omega, model)
+    return _in_units(beam, omega, count, steady, solve_modes(steady), theory, math.nan)
 
 
 def _in_units(
-    beam: AnyBlade, omega: float, count: int, model: Continuum, modes: Modes
-) -> LinearModes:
+    beam: AnyBlade, omega: float, count: int, steady: SteadyBeam, modes: Modes, theory: Theory,
+    error: float,
+) -> LinearModes:  # fmt: skip
+    shapes, setting = modes.coordinates[:count], beam.setting_angle
     return LinearModes(
         beam=beam,
         omega=omega,
+        theory=theory,
         frequencies=modes.frequencies[:count] * beam.frequency_scale,
-        coordinates=modes.coordinates[:count],
-        model=model,
-        _slopes=modes.slopes[:count],
+        shares=steady.model.shares(steady.equilibrium, shapes, setting),
+        error=error,
+        model=steady.model,
+        coordinates=shapes,
+        setting=setting,
+        _steady=steady.equilibrium,
     )
 
 

@@ -42,6 +42,7 @@ class SpaceContinuum:
     of `Continuum`, of which it has the coordinates.
     """
 
+    in_space: ClassVar[bool] = True
     has_dear_tangent: ClassVar[bool] = True
     """Whether one costs many residuals, so that it serves in the steps of time after it."""
 
@@ -240,8 +241,17 @@ class SpaceContinuum:
         spin = self.at_points(self.integrals.of(turned(at.frame, bend)))
         return np.asarray(((cross(spin, at.slope) + turned(at.frame, stretch)) @ self.weights).T)
 
-    def axis(self, q: FloatArray, x: FloatArray) -> FloatArray:
-        """Return the places r of material points `x` in the root frame, (samples, points, 3)."""
+    @property
+    def trapeze(self) -> bool:
+        """Whether twist shortens the axis."""
+        return self.functions.theory.trapeze
+
+    def places(self, q: FloatArray, x: FloatArray, setting: float = 0.0) -> FloatArray:
+        """Return the places r of material points `x` in the root frame, (samples, points, 3).
+
+        The setting angle is in the sections.
+        """
+        del setting
         return np.moveaxis(self._state(q).slope @ self.functions.grid.integral(x).T, 0, -1)
 
     def standing(
@@ -249,13 +259,12 @@ class SpaceContinuum:
     ) -> tuple[FloatArray, FloatArray]:
         """Return places (samples, points, 3) and sections (samples, points, 3, 3) of points `x`.
 
-        In the root frame; axes of sections in columns. The setting angle is in the sections.
+        In the root frame; axes of sections in columns.
         """
-        del setting
         to_x = Frames(self.blade.running(self.functions.grid, x), self.blade.kinks)
         frame = to_x.of(self._strains(q)[1])[..., self.points.size :]
         sections = np.einsum("ijsp,jkp->spik", frame, self.blade.section_frames(x))
-        return self.axis(q, x), sections
+        return self.places(q, x, setting), sections
 
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
@@ -266,9 +275,9 @@ class SpaceContinuum:
         """1: loads in the plane of rotation act in it, however the blade is set."""
         return 1.0
 
-    def deflection(self, tip: FloatArray) -> FloatArray:
-        """Return the tip's deflection, normal to the clamp's line."""
-        return tip[..., 1:]
+    def deflection(self, q: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the tip's lag, and its rate, (samples,) each."""
+        return self.tip(q)[:, 1], self.tip_rate(q, q_dot)[:, 1]
 
     def push(self, force: ComplexArray, acts_on: str, lift: FloatArray | float = 0.0) -> FloatArray:
         """Return a force in the plane of rotation and along its axis, as `residual` takes it.
@@ -285,6 +294,27 @@ class SpaceContinuum:
         else:
             result[0] = np.multiply.outer(np.stack(parts), self.outboard[acts_on])
         return result
+
+    def moved(
+        self, q: FloatArray, shapes: ComplexArray, x: FloatArray, setting: float
+    ) -> tuple[ComplexArray, ComplexArray]:
+        """Return how small changes (count, n) move points, (3, points, count), and twist them."""
+        del setting
+        change, onto = self.changes(q[None]), self.functions.grid.integral(x)
+        place, turn = (
+            onto @ np.swapaxes(shapes @ field[:, 0], 1, 2) for field in (change.slope, change.bend)
+        )
+        return place, turn[0]
+
+    def shares(self, q: FloatArray, shapes: ComplexArray, setting: float = 0.0) -> FloatArray:
+        """Return the shares of flap, lag and torsion in their kinetic energy, (count, 3)."""
+        del setting
+        change, masses = self.changes(q[None]), self.masses
+        moved = np.abs(shapes @ change.center[:, 0]) ** 2 @ masses.mass
+        turned = shapes @ change.turn_m[:, 0]
+        twist = np.einsum("ikp,ijp,jkp->k", turned.conj(), masses.inertia, turned).real
+        parts = np.stack((moved[2], moved[1], twist), axis=-1)
+        return np.asarray(parts / (moved.sum(axis=0) + twist)[:, None])
 
     def struck(self, speed: float) -> FloatArray:
         """Return the rates (n,) of a straight blade that flaps as `kicked_state` has it."""

@@ -30,12 +30,12 @@ def require_gauge(gauge: object) -> None:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SpaceModes:
-    """Modes of a blade in space; made by `linear_modes`, of a planar blade those of torsion.
+class LinearModes:
+    """Modes about the rotating steady state, in the plane or in space; made by `linear_modes`.
 
     Attributes
     ----------
-    blade, omega, theory : as given
+    beam, omega, theory : as given
     frequencies : ndarray (count,)
         Natural frequencies in the rotating frame [rad/s], ascending. Sections are free to warp: a
         clamp that holds it raises those of torsion by a quarter of its depth over the length.
@@ -48,55 +48,64 @@ class SpaceModes:
 
     Examples
     --------
-    >>> from analytic import Beam, Rectangle, linear_modes
-    >>> strip = Beam.reference().with_shape(Rectangle())
-    >>> print(linear_modes(strip, 6.0, 2, plane="torsion").frequencies.round(1))
-    [ 65.1 194.3]
+    >>> from analytic import Beam, linear_modes
+    >>> modes = linear_modes(Beam.reference(), omega=6.0, count=2)
+    >>> print(modes.lag([2.0, 4.0, 8.0]).round(4))
+    [[ 0.1307 -0.3935]
+     [ 0.3889 -0.6521]
+     [ 1.      1.    ]]
     """
 
-    blade: AnyBlade
+    beam: AnyBlade
     omega: float
     theory: Theory
     frequencies: FloatArray
     shares: FloatArray
     error: float
-    model: SpaceContinuum = field(repr=False)
-    coordinates: ComplexArray = field(repr=False)
+    model: Any = field(repr=False)
+    coordinates: Any = field(repr=False)
+    setting: float = field(repr=False)
     _steady: FloatArray = field(repr=False)
 
-    def lag(self, x: ArrayLike) -> ComplexArray:
+    def lag(self, x: ArrayLike) -> Any:
         """Return the displacements at `x` [m] in the direction of rotation, (points, count)."""
-        return np.asarray(self._moved(x)[0][1])
+        return self._moved(x)[0][1]
 
-    def flap(self, x: ArrayLike) -> ComplexArray:
+    def flap(self, x: ArrayLike) -> Any:
         """Return the displacements at `x` [m] normal to it and to the clamp, (points, count).
 
-        On the scale of `lag`: the larger of both is 1 at the tip. The phase tells which is ahead.
-        Where the tip only twists, the twist is.
+        On the scale of `lag`: the largest of all is 1 at the tip. In space the phase tells which is
+        ahead. Where the tip only twists, the twist is.
         """
-        return np.asarray(self._moved(x)[0][2])
+        return self._moved(x)[0][2]
 
-    def twist(self, x: ArrayLike) -> ComplexArray:
+    def twist(self, x: ArrayLike) -> Any:
         """Return the turns about the clamp's axis at `x` [m] on that scale, (points, count)."""
-        return np.asarray(self._moved(x)[1][0])
+        return self._moved(x)[1]
 
-    def _moved(self, x: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
-        length = self.blade.length
+    def shapes(self, x: ArrayLike) -> FloatArray:
+        """Return the deflections of a planar blade in its plane of bending at `x` [m]."""
+        if self.model.in_space:
+            raise ValueError("this blade bends in space: take lag, flap and twist of its modes")
+        (_, lag, flap), _ = self._moved(x)
+        return np.asarray(math.cos(self.setting) * lag + math.sin(self.setting) * flap)
+
+    def _moved(self, x: ArrayLike) -> tuple[Any, Any]:
+        length = self.beam.length
         at = np.append(points_of_beam("x", x, length), 1.0)
-        change = self.model.changes(self._steady[None])
-        onto = self.model.functions.grid.integral(at)
-        moved, turn = (
-            onto @ np.swapaxes(self.coordinates @ field[:, 0], 1, 2)
-            for field in (change.slope, change.bend)
-        )
-        place = length * moved
-        tip = place[1:, -1]
-        largest = np.take_along_axis(tip, np.argmax(np.abs(tip), axis=0)[None], axis=0)[0]
-        largest = np.where(largest == 0.0, turn[0, -1], largest)
-        return place[:, :-1] / largest, turn[:, :-1] / largest
+        moved, turn = self.model.moved(self._steady, self.coordinates, at, self.setting)
+        place, tip = length * moved, length * moved[:, -1]
+        across = tip if self.model.in_space else np.stack((tip[0], np.hypot(*tip[1:])))
+        k = np.argmax(np.abs(across), axis=0)[None]
+        largest = np.take_along_axis(across, k, axis=0)[0]
+        if not self.model.in_space:
+            sign = np.sign(math.cos(self.setting) * tip[1] + math.sin(self.setting) * tip[2])
+            largest = np.where(k[0] == 1, sign * largest, largest)
+        largest = np.where(largest == 0.0, turn[-1], largest)
+        return place[:, :-1] / largest, turn[:-1] / largest
 
 
-def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> SpaceModes:
+def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> LinearModes:
     """Return the lowest modes of the twist of a planar blade, which in the plane is alone.
 
     The trapeze effect and the propeller moment stiffen it. Of the paper's rectangle at 12 rad/s the
@@ -121,7 +130,7 @@ def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> 
 
 def space_modes(
     blade: AnyBlade, omega: float, count: int, theory: Theory, *, torsion: bool = False
-) -> SpaceModes:
+) -> LinearModes:
     """Return the lowest modes, or those of torsion alone, on more functions until they settle."""
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
     _, (steady, (found, shapes)), error = settled(
@@ -142,8 +151,8 @@ def space_modes_on(
     count: int,
     *,
     torsion: bool = False,
-    near: SpaceModes | None = None,
-) -> SpaceModes:
+    near: LinearModes | None = None,
+) -> LinearModes:
     """Return the modes on a discretization that is known to resolve them, unchecked.
 
     The steady state is sought from that of modes on the same discretization at a speed nearby.
@@ -162,13 +171,14 @@ def _packed(
     frequencies: FloatArray,
     shapes: ComplexArray,
     error: float,
-) -> SpaceModes:
-    return SpaceModes(
-        blade=blade,
+) -> LinearModes:
+    return LinearModes(
+        beam=blade,
         omega=omega,
         theory=steady.model.functions.theory,
         frequencies=frequencies * blade.frequency_scale,
-        shares=_shares(steady, shapes),
+        shares=steady.model.shares(steady.equilibrium, shapes.T),
+        setting=0.0,
         error=error,
         model=steady.model,
         coordinates=shapes.T,
@@ -212,7 +222,7 @@ def orbit_modes(
     """
     frequencies, shapes = _solved(steady)
     if gauge is None:
-        flap, lag, _ = _shares(steady, shapes[:, mode - 1 : mode])[0]
+        flap, lag, _ = steady.model.shares(steady.equilibrium, shapes[:, mode - 1 : mode].T)[0]
         gauge = "flap" if flap > lag else "lag"
     if steady.direction != DIRECTIONS[gauge]:
         steady = replace(steady, direction=DIRECTIONS[gauge], near=steady.equilibrium)
@@ -224,13 +234,3 @@ def orbit_modes(
     shapes = shapes * 1j * np.conj(np.sqrt(turn / np.abs(turn)))
     parts = np.where(odd[:, None], -shapes.imag, shapes.real).T
     return steady, frequencies, np.asarray(parts / (parts @ gradient)[:, None])
-
-
-def _shares(steady: SpaceBlade, coordinates: ComplexArray) -> FloatArray:
-    """Return the shares of flap, lag and torsion in the kinetic energy, (modes, 3)."""
-    change, masses = steady.model.changes(steady.equilibrium[None]), steady.model.masses
-    moved = np.abs(coordinates.T @ change.center[:, 0]) ** 2 @ masses.mass
-    turned = coordinates.T @ change.turn_m[:, 0]
-    twist = np.einsum("ikp,ijp,jkp->k", turned.conj(), masses.inertia, turned).real
-    parts = np.stack((moved[2], moved[1], twist), axis=-1)
-    return np.asarray(parts / (moved.sum(axis=0) + twist)[:, None])

@@ -28,7 +28,7 @@ class SteadyState:
         Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
         normal to both, up; the precone tilts the first and the last.
     twist : float
-        How far the load turns the tip's section out of its upright [rad], as of `SpaceResponse`.
+        How far the load turns the tip's section out of its upright [rad], as of `SpinUpResponse`.
     error : float
         Its change over the length by the last refinement.
     """
@@ -48,7 +48,7 @@ class SteadyState:
         """Return the places of the points `x` [m] of the line, as `tip`, (points, 3)."""
         at = points_of_beam("x", x, self.blade.length)
         return np.asarray(
-            self.blade.length * self._steady.model.axis(self._steady.equilibrium[None], at)[0]
+            self.blade.length * self._steady.model.places(self._steady.equilibrium[None], at)[0]
         )
 
     def section_loads(self, x: ArrayLike) -> SectionLoads:

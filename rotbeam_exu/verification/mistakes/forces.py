@@ -73,4 +73,4 @@ def without(force: str, case: Case, time: FloatArray) -> FloatArray:
     )  # fmt: skip
     if found is None:
         raise RuntimeError(f"{force}: the motion is not reached")
-    return np.asarray(blade.length * found.tip.imag)
+    return np.asarray(blade.length * found.q)
