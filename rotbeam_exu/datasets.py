@@ -72,7 +72,7 @@ def dataset_of(*results: Any) -> xr.Dataset:
     >>> spin_up = SpinUp(omega=4.0, ramp_time=3.0)
     >>> data = dataset_of(spin_up_response(Beam.reference(), spin_up, [0.0, 1.5, 3.0]))
     >>> print(*data)
-    q q_dot tip_x tip_y angle root_force_x root_force_y root_moment_z
+    q q_dot tip_x tip_y along flap twist angle root_force_x root_force_y root_moment_z
     >>> print(data.root_moment_z.long_name, data.root_moment_z.units)
     bending moment at the root N m
     """
