@@ -12,7 +12,6 @@ from cyclopts import Parameter
 import analytic
 from analytic import AnyBlade
 from analytic.exact.space.steady import lives_in_space
-from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from .job import Flag
@@ -35,7 +34,7 @@ def backbone(
     variant: str | None = None,
     all_variants: Flag = False,
     exact: Flag = False,
-    mode: Whole = 1,
+    mode: str = "lag 1",
     functions: Whole = 16,
     config: Config = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
@@ -68,15 +67,15 @@ def backbone(
     $ rotbeam backbone --omega 6
     $ rotbeam backbone --omega 6 --all-variants --exact
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
-    $ rotbeam backbone --omega 6 --mode 2 --amplitude 0.02 0.05
+    $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
     file = configured(config)
     omega = omega_of(file, omega)
-    if whole_number("mode", mode) > 1 and (variant is not None or all_variants):
-        raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")
+    if mode != "lag 1" and (variant is not None or all_variants):
+        raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
     # The models are of a straight blade in its plane.
-    alone = mode > 1 or (exact and lives_in_space(file.beam))
+    alone = mode != "lag 1" or (exact and lives_in_space(file.beam))
     names = told or ([] if alone else ["FrE"])
     refused: list[Refusal] = []
     models = []
@@ -88,7 +87,7 @@ def backbone(
     if names and not models:
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
-    if exact or mode > 1:
+    if exact or mode != "lag 1":
         orbits, failure = _exact(file.beam, omega, amplitude, mode, functions)
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
@@ -120,7 +119,7 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 
 def _exact(
-    beam: AnyBlade, omega: float, amplitude: list[float], mode: int, functions: int
+    beam: AnyBlade, omega: float, amplitude: list[float], mode: str, functions: int
 ) -> tuple[Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import analytic
-from analytic.input_checks import not_negative, whole_number
+from analytic.input_checks import not_negative
 
 from ..files.results import parts
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
 from .motion import configured, omega_of
-from .options import Amplitudes, Config, Omega, SectionOptions, Whole
+from .options import Amplitudes, Config, Omega, SectionOptions
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def stability(
     omega: Omega = None,
     shape: SectionOptions = SectionOptions(),
     amplitude: Amplitudes = _AMPLITUDES,
-    mode: Whole = 1,
+    mode: str = "lag 1",
     damping_ratio: float = 0.0,
     config: Config = None,
     results: Results = Results(),
@@ -47,7 +47,7 @@ def stability(
         Amplitudes of the planar orbits over the length, one or several; the limit is searched up
         to the largest.
     mode
-        In-plane mode from which the orbits grow.
+        Mode of lag from which the orbits grow, as "lag 1".
     damping_ratio
         Damping ratio of all modes of flap and torsion, beside the damping of the file's blade.
 
@@ -57,7 +57,6 @@ def stability(
     $ rotbeam stability --omega 6 --section tube
     $ rotbeam stability --omega 2 --section rectangle --damping-ratio 0.005
     """
-    whole_number("mode", mode)
     not_negative("damping-ratio", damping_ratio)
     file = configured(config)
     omega = omega_of(file, omega)
@@ -81,7 +80,7 @@ def stability(
         return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 
     results.job(
-        f"stability-{shape.name}-omega-{omega:g}-mode-{mode}", inputs, computed,
+        f"stability-{shape.name}-omega-{omega:g}-{mode.replace(' ', '-')}", inputs, computed,
         lambda found, _: _print(*found[:2]),
         table=lambda data: parts(data)["growth_rate"],
         draw=lambda figures, data: figures.planar_stability(data),

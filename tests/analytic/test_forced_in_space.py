@@ -195,7 +195,7 @@ def test_the_backbone_is_that_of_the_gauge(coned, bent):
     [
         (BLADE, {"gauge": "flap"}, "stays in its plane under the load, and gauge is 'flap'"),
         (TWISTED, {"gauge": "up"}, "gauge must be 'lag' or 'flap', got 'up'"),
-        (TWISTED.with_damping(Damping()), {}, "mode 2 is at 3.51.* rad/s: take"),
+        (TWISTED.with_damping(Damping()), {}, "lag 1 is at 3.51.* rad/s: take"),
         (Beam.reference().with_twist(0.1), {}, "give its stiffness there"),
     ],
 )

@@ -185,7 +185,7 @@ def test_orbits_of_a_blade_that_neither_twists_nor_stretches(omega, multiplier):
     """All coordinates are odd. Another code gives the edges where the period of lag doubles."""
     thin = unit_beam(1e-4).with_section_out_of_plane(0.01, math.inf).with_twist(1e-7)
     theory = Theory(extension=False, trapeze=False)
-    found = periodic_orbits(thin, omega, [0.2], mode=2, gauge="lag", theory=theory)
+    found = periodic_orbits(thin, omega, [0.2], mode="lag 1", theory=theory)
     assert found.stable[0] == (multiplier is None)
     if multiplier is not None:  # near the edge it goes with the root of the distance
         assert found.multipliers[0].real.min() == pytest.approx(multiplier, abs=3e-3)

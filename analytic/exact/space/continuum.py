@@ -307,14 +307,14 @@ class SpaceContinuum:
         return place, turn[0]
 
     def shares(self, q: FloatArray, shapes: ComplexArray, setting: float = 0.0) -> FloatArray:
-        """Return the shares of flap, lag and torsion in their kinetic energy, (count, 3)."""
+        """Return the shares of flap, lag, torsion and axial motion in their kinetic energy."""
         del setting
         change, masses = self.changes(q[None]), self.masses
         moved = np.abs(shapes @ change.center[:, 0]) ** 2 @ masses.mass
         turned = shapes @ change.turn_m[:, 0]
         twist = np.einsum("ikp,ijp,jkp->k", turned.conj(), masses.inertia, turned).real
-        parts = np.stack((moved[2], moved[1], twist), axis=-1)
-        return np.asarray(parts / (moved.sum(axis=0) + twist)[:, None])
+        parts = np.stack((moved[2], moved[1], twist, moved[0]), axis=-1)
+        return np.asarray(parts / parts.sum(axis=1, keepdims=True))
 
     def struck(self, speed: float) -> FloatArray:
         """Return the rates (n,) of a straight blade that flaps as `kicked_state` has it."""
