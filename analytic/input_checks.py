@@ -11,6 +11,7 @@ import math
 import reprlib
 from collections.abc import Iterable
 from numbers import Integral, Real
+from typing import Any
 
 import numpy as np
 
@@ -24,11 +25,19 @@ _SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
-def bare(name: str, value: object, unit: str) -> object:
-    """Return a quantity of a units library as its number in `unit`, anything else as it is."""
+def bare(name: str, value: object, unit: str | None) -> object:
+    """Return a quantity of a units library as its number in `unit`, anything else as it is.
+
+    Where the unit is None, as of a table whose columns differ in it, a quantity is refused.
+    """
     own = getattr(value, "units", getattr(value, "unit", None))
     if own is None:
         return value
+    if unit is None:
+        raise ValueError(
+            f"{name} has entries of different units, got a quantity in {own}: convert each column "
+            "to SI and give the numbers"
+        )
     if isinstance(own, str):  # a label, as xarray's arrays carry it, converts nothing
         if own == (unit or "1"):
             return np.asarray(value)[()]
@@ -48,19 +57,19 @@ def bare(name: str, value: object, unit: str) -> object:
     return bare
 
 
-def _unit(unit: str) -> str:
+def _unit(unit: str | None) -> str:
     return f" {unit}" if unit else ""
 
 
-def _in(unit: str) -> str:
+def _in(unit: str | None) -> str:
     return f" in {unit}" if unit else ""
 
 
 def shown(value: object) -> str:
-    """Return a value as one would type it; of a long one, its beginning and its end."""
+    """Return a value as one would type it, on one line; of a long one, its beginning and end."""
     short = reprlib.Repr()
     short.maxstring = short.maxother = 100
-    return short.repr(value)
+    return " ".join(short.repr(value).split())
 
 
 def positive(name: str, value: object, unit: str = "") -> float:
@@ -83,17 +92,22 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
 def finite_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float; refuse all but finite numbers."""
     value = bare(name, value, unit)
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if not _is_number(value):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
-    number = float(value)
+    number = float(value)  # type: ignore[arg-type]
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
     return number
 
 
+def _is_number(value: object) -> bool:
+    """Whether it is a real number; True and NumPy's spans of time count as such in Python alone."""
+    return isinstance(value, Real) and not isinstance(value, (bool, np.timedelta64))
+
+
 def whole_number(name: str, value: object, least: int = 1, most: int | None = None) -> int:
     """Return `value` as an int; refuse all but whole numbers from `least` to `most`."""
-    if isinstance(value, bool) or not isinstance(value, Integral):
+    if not (_is_number(value) and isinstance(value, Integral)):
         raise TypeError(f"{name} must be a whole number, got {shown(value)}")
     number = int(value)
     if number < least:
@@ -145,28 +159,40 @@ def rotation_speed(omega: object, name: str = "omega") -> float:
     )
 
 
-def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
+def finite_array(name: str, values: object, unit: str | None = "") -> FloatArray:
     """Return numbers as an array of their own shape; refuse numbers that are not finite.
 
-    Quantities of a units library are converted to `unit`.
+    Quantities of a units library are converted to `unit`, also in lists; see `bare` for None.
     """
-    values = bare(name, values, unit)
-    if isinstance(values, (list, tuple)):
-        values = [bare(name, item, unit) for item in values]
     try:
-        array = np.asarray(values)
-    except (TypeError, ValueError):  # ragged
-        array = np.array(None)
-    if isinstance(values, np.ma.MaskedArray):  # NumPy would take what is hidden for numbers
-        remedy = "leave out what is masked, by .compressed()"
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got a masked array: {remedy}")
-    fractions = array.dtype.kind == "O" and all(isinstance(item, Real) for item in array.flat)
-    if array.size and array.dtype.kind not in "fiu" and not fractions:
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
-    array = np.asarray(array, dtype=np.float64)
+        array = np.asarray(_nested(name, values, unit), dtype=np.float64)
+    except ValueError as error:
+        if "inhomogeneous" not in str(error):
+            raise
+        raise TypeError(
+            f"{name} must be numbers{_in(unit)}, got lists of different lengths"
+        ) from None
     finite = np.isfinite(array)
     if not finite.all():
         raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}{_unit(unit)}")
+    return array
+
+
+def _nested(name: str, values: object, unit: str | None) -> Any:
+    """Return numbers or arrays in nested lists; refuse what NumPy would take for numbers."""
+    if isinstance(values, (list, tuple)):
+        return [_nested(name, item, unit) for item in values]
+    values = bare(name, values, unit)
+    if _is_number(values):
+        return values
+    if not callable(getattr(values, "mask", callable)):  # an array's, not the method of pandas
+        remedy = "leave out what is masked, by .compressed()"
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got a masked array: {remedy}")
+    array = np.asarray(values)
+    fractions = array.dtype.kind == "O" and array.ndim and all(map(_is_number, array.flat))
+    empty = isinstance(values, np.ndarray) and not array.size
+    if isinstance(values, bytearray) or not (array.dtype.kind in "fiu" or fractions or empty):
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
     return array
 
 
@@ -176,6 +202,17 @@ def finite_values(name: str, values: object, unit: str = "") -> FloatArray:
     if array.ndim != 1 or array.size == 0:
         raise ValueError(f"{name} must be a sequence of numbers, got shape {array.shape}")
     return array
+
+
+def along(name: str, values: object, stations: int, unit: str) -> FloatArray:
+    """Return a number at each of the stations, from these or from one for all, (stations,)."""
+    array = finite_array(name, values, unit)
+    if array.shape not in ((), (stations,)):
+        raise ValueError(
+            f"{name} must be one number{_in(unit)}, or one at each of the {stations} stations, got "
+            f"the shape {array.shape}"
+        )
+    return np.broadcast_to(array, stations)
 
 
 def require_ascending(name: str, values: Iterable[float], unit: str, where: str = "") -> None:
