@@ -19,14 +19,22 @@ from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, Profile, evaluated, in_units
 from .description import Described
-from .input_checks import along, finite_number, finite_values, not_negative, positive, shown
+from .input_checks import (
+    along,
+    checked_angle,
+    checked_profile,
+    finite_values,
+    not_negative,
+    positive,
+    require_offset,
+    shown,
+)
 from .parts import STRAIGHT, UNDAMPED, Damping, Line, Offset, PointMass
 from .section import OutOfPlane, Section
 from .section_shapes import Gyration, SectionShape, require_shape
 from .shape_functions import shape_functions
 from .station_section import section_of_table
 from .unit_blade import UnitBlade
-from .warning import warn
 
 _FUNCTIONS, _POINTS = 24, 32  # for scales: ω0 and the burst speed
 _HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
@@ -82,7 +90,8 @@ class Variations(Described, abstract=True):
         By `angle` [rad] at the tip and in proportion before, if it is one number; else by
         coefficients of 1, x/L, ... or by stations (x [m], angle).
         """
-        return self._with_line(twist=(0.0, angle) if np.ndim(angle) == 0 else angle)
+        twist = checked_profile("twist", angle, "rad")
+        return self._with_line(twist=twist if isinstance(twist, tuple) else (0.0, twist))
 
     def with_precone(self, angle: float) -> Blade:
         """Return the blade whose clamp points out of the plane of rotation by `angle` [rad]."""
@@ -200,37 +209,28 @@ class Blade(Variations):
         self._keep(
             length=positive("length", self.length, "m"),
             hub_radius=not_negative("hub_radius", self.hub_radius, "m"),
-            setting_angle=finite_number("setting_angle", self.setting_angle, "rad"),
+            setting_angle=checked_angle("setting_angle", self.setting_angle),
             point_masses=_several(self.point_masses),
         )
-        if abs(self.setting_angle) > 2.0 * math.pi:
-            warn(
-                f"setting_angle = {self.setting_angle:g} rad is more than a turn: degrees? "
-                f"{self.setting_angle:g} degrees are {math.radians(self.setting_angle):.4g} rad"
-            )
         for name, kind in (("section", Section), ("damping", Damping), ("line", Line)):
             if not isinstance(getattr(self, name), kind):
                 raise TypeError(
                     f"{name} must be a {kind.__name__}, got {shown(getattr(self, name))}"
                 )
         self.section.require_along(self.length)
+        self.line.require_along(self.length)
         told = (*self.line.mass_offset, *self.line.tension_offset)
         if self.section.at_stations and any(told):
             raise ValueError(
                 "the stations tell where the centers are: leave with_offsets out, or give "
                 "from_stations the offsets tension, shear and center"
             )
-        for x, *_ in self.line.kinks:
-            if not x < self.length:
-                raise ValueError(
-                    f"a kink at {x:g} m is not between clamp and tip, at {self.length:g} m: take "
-                    "its place from the clamp, not from the axis"
-                )
         self._require_masses()
 
     def _require_masses(self) -> None:
         own = self.mass - sum(one.mass for one in self.point_masses)
         for one in self.point_masses:
+            require_offset("the offset of a point mass", one.offset, self.length)
             if one.position > self.length * (1.0 + 1e-12):
                 raise ValueError(
                     f"a point mass at {one.position:g} m is beyond the tip at {self.length:g} m: "

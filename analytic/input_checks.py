@@ -14,8 +14,9 @@ from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .arrays import FloatArray, Profile
+from .arrays import FloatArray, Profile, stations
 from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
 from .warning import warn
 
@@ -124,6 +125,21 @@ def flag(name: str, value: object) -> bool:
     return bool(value)
 
 
+def checked_angle(name: str, value: object, most: float = math.pi) -> float:
+    """Return an angle [rad]; ask about one beyond `most`, refuse what is none in degrees either."""
+    number = finite_number(name, value, "rad")
+    if abs(number) > 360.0:
+        raise ValueError(
+            f"{name} = {number:g} rad is more than a turn, even if it is in degrees: give it in rad"
+        )
+    if abs(number) > most:
+        warn(
+            f"{name} = {number:g} rad is beyond {most:.4g} rad: in degrees? {number:g} degrees are "
+            f"{math.radians(number):.4g} rad"
+        )
+    return number
+
+
 def peak_deflection(name: str, value: object) -> float:
     """Return the largest |q|/L of orbits asked for, refusing what none has or round-off hides."""
     peak = positive(name, value)
@@ -204,15 +220,15 @@ def finite_values(name: str, values: object, unit: str = "") -> FloatArray:
     return array
 
 
-def along(name: str, values: object, stations: int, unit: str) -> FloatArray:
-    """Return a number at each of the stations, from these or from one for all, (stations,)."""
+def along(name: str, values: object, count: int, unit: str) -> FloatArray:
+    """Return a number at each of so many stations, from these or from one for all, (stations,)."""
     array = finite_array(name, values, unit)
-    if array.shape not in ((), (stations,)):
+    if array.shape not in ((), (count,)):
         raise ValueError(
-            f"{name} must be one number{_in(unit)}, or one at each of the {stations} stations, got "
+            f"{name} must be one number{_in(unit)}, or one at each of the {count} stations, got "
             f"the shape {array.shape}"
         )
-    return np.broadcast_to(array, stations)
+    return np.broadcast_to(array, count)
 
 
 def require_ascending(name: str, values: Iterable[float], unit: str, where: str = "") -> None:
@@ -251,20 +267,45 @@ def points_of_beam(name: str, x: object, length: float) -> FloatArray:
     return np.clip(points / length, 0.0, 1.0)
 
 
+def require_offset(name: str, offset: ArrayLike, length: float) -> None:
+    """Refuse offsets [m] from the line that are longer than the blade, of `length` [m]."""
+    far = float(np.abs(offset).max())
+    if far > length:
+        raise ValueError(
+            f"{name} is {far:g} m from the line of a blade of {length:g} m: give it in m, at most "
+            "the length"
+        )
+
+
+def require_along(name: str, profile: Profile, length: float) -> None:
+    """Refuse stations that do not run from the clamp to the tip, at `length` [m]."""
+    at = stations(profile)
+    if at and (at[0] != 0.0 or not math.isclose(at[-1], length, rel_tol=1e-9)):
+        raise ValueError(
+            f"the stations of {name} run from {at[0]:g} to {at[-1]:g} m: give them from 0 to the "
+            f"length, {length:g} m"
+        )
+
+
 def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
     """Return a profile of plain numbers and tuples, so that it hashes."""
-    profile = bare(name, profile, unit)
-    if not isinstance(profile, tuple | list | np.ndarray):
+    given, profile = profile, bare(name, profile, unit)
+    if profile is not given and np.ndim(profile) > 1:  # type: ignore[arg-type]
+        raise ValueError(
+            f"{name} has stations (x, value), which differ in unit, in one quantity: give each "
+            "number its unit, or plain numbers in SI"
+        )
+    if not _is_sequence(profile):
         return finite_number(name, profile, unit)
-    items = list(profile)
+    items: list[Any] = list(profile)  # type: ignore[call-overload]
     if not items:
         raise ValueError(f"{name} is empty: give a number, coefficients or stations")
-    if not isinstance(items[0], tuple | list | np.ndarray):
+    if not _is_sequence(items[0]):
         return tuple(_entry(f"{name}[{k}]", value, unit) for k, value in enumerate(items))
     pairs: list[tuple[float, float]] = []
     for k, pair in enumerate(items):
-        if not isinstance(pair, tuple | list | np.ndarray) or len(pair) != 2:
-            raise ValueError(f"{name}[{k}] must be a station (x, value), got {pair!r}")
+        if not _is_sequence(pair) or len(pair) != 2:
+            raise ValueError(f"{name}[{k}] must be a station (x, value), got {shown(pair)}")
         pairs.append((_entry(f"{name}[{k}]", pair[0], "m"), _entry(f"{name}[{k}]", pair[1], unit)))
     if len(pairs) < 2:
         raise ValueError(
@@ -272,6 +313,10 @@ def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
         )
     require_ascending(f"the stations of {name}", [x for x, _ in pairs], "m", "where it steps, ")
     return tuple(pairs)
+
+
+def _is_sequence(value: object) -> bool:
+    return isinstance(value, tuple | list) or (isinstance(value, np.ndarray) and value.ndim > 0)
 
 
 def _entry(name: str, value: object, unit: str = "") -> float:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, Profile
-from .input_checks import finite_array, finite_values, require_ascending
+from .input_checks import finite_array, finite_values, require_ascending, require_offset
 from .section import OutOfPlane, Section
 
 _EVEN = 1e-6  # of a matrix whose entries a table rounds
@@ -57,6 +57,7 @@ def _offsets(name: str, values: ArrayLike, x: FloatArray) -> FloatArray:
             f"{name} must be a pair (c2, c3) [m] at each of the {x.size} stations, got the shape "
             f"{pairs.shape}: if it is the same at all, give [[c2, c3]] * {x.size}"
         )
+    require_offset(name, pairs, x[-1])
     return pairs
 
 

@@ -6,10 +6,8 @@ import numpy as np
 class Quantity:
     """A mass, of a units library that knows no other unit."""
 
-    unit = "kilogram"
-
     def __init__(self, value):
-        self.value = value
+        self.value, self.unit = value, type("Unit", (), {"__str__": lambda _: "kilogram"})()
 
     def to(self, unit):
         raise LookupError(f"kilogram is no {unit}")
