@@ -60,7 +60,7 @@ def _checked_twist(twist: Any) -> Profile:
     profile = checked_profile("twist", twist, "rad")
     at = stations(profile) or [1.0]
     x = np.union1d(np.linspace(0.0, at[-1], 65), at)
-    values, slopes = evaluated(profile, x), at[-1] * slope_of(profile, x)
+    values, slopes = evaluated(profile, x).tolist(), (at[-1] * slope_of(profile, x)).tolist()
     largest = checked_angle("twist", max(values, key=abs))
     steepest = max(slopes, key=abs)
     if abs(steepest) > 2.0 * math.pi and abs(largest) <= math.pi:  # one question is enough
@@ -118,14 +118,12 @@ class Line(Described):
 
     def require_along(self, length: float) -> None:
         """Refuse a line that is not one of a blade of that length [m]."""
-        for name, profile in (
-            ("twist", self.twist), ("prebend", self.prebend), ("sweep", self.sweep)
-        ):  # fmt: skip
-            require_along(name, profile, length)
+        for name in ("twist", "prebend", "sweep"):
+            require_along(name, getattr(self, name), length)
         for name in ("prebend", "sweep"):
             profile = in_units(getattr(self, name), length, 1.0)
-            x = np.union1d(np.linspace(0.0, 1.0, 65), stations(profile))
-            turn = length * float(np.trapezoid(np.abs(evaluated(profile, x)), x))
+            points = np.union1d(np.linspace(0.0, 1.0, 65), stations(profile))
+            turn = length * float(np.trapezoid(np.abs(evaluated(profile, points)), points))
             if turn > 2.0 * math.pi:
                 raise ValueError(
                     f"{name} turns the line by {turn:.4g} rad, more than once around: it is a "
