@@ -40,10 +40,9 @@ def files(*folders):
 
 
 def test_all_data_are_under_a_license_for_data():
-    data = {".csv", ".json", ".nc", ".pdf", ".toml"}
-    found = [
-        name for name in files("models", "rotbeam_exu/verification/data") if Path(name).suffix in data
-    ]
+    kinds = {".csv", ".json", ".nc", ".pdf", ".toml"}
+    everything = files("models", "rotbeam_exu/verification/data")
+    found = [name for name in everything if Path(name).suffix in kinds]
     assert len(found) > 100
     by_license = {name: license_of(name) for name in found}
     assert set(by_license.values()) == {"CC-BY-4.0", "Apache-2.0"}

@@ -215,9 +215,12 @@ def test_the_birth_of_the_whirl_follows_from_its_printed_formula():
     (p,), (c,), (ratio,), (delta,), (born,) = (
         map(float, re.findall(pattern, page))
         for pattern in (
-            r"\$p=([\d.]+)\$ be the hardening", r"\$c=([\d.]+)\$ that of", r"With \$r=([\d.]+)\$, so",
-            r"0\.998}=([\d.]+)\$, this", r"gives \$a_0\$ = ([\d.]+)\. ",
+            r"\$p=([\d.]+)\$ be the hardening",
+            r"\$c=([\d.]+)\$ that of",
+            r"With \$r=([\d.]+)\$, so",
+            r"0\.998}=([\d.]+)\$, this",
+            r"gives \$a_0\$ = ([\d.]+)\. ",
         )
-    )  # fmt: skip
+    )
     assert delta == pytest.approx(1.0 - math.sqrt(ratio), abs=5e-8)
     assert born == pytest.approx(math.sqrt(delta / (c - 2.0 * p)), abs=5e-7)
