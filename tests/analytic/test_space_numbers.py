@@ -233,7 +233,7 @@ def test_the_spin_up_of_a_twisted_blade(tolerance, count, error, monkeypatch):
             "has 0 axial",
         ),
         (lambda: BLADE.with_offsets(mass=0.1), "mass_offset must be a pair"),
-        (lambda: BLADE.with_twist(math.nan), "NaN"),
+        (lambda: BLADE.with_twist(math.nan), "twist must be finite"),
         (lambda: BLADE.with_precone("5 degrees"), "precone must be"),
     ],
 )
