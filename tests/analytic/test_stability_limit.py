@@ -272,7 +272,7 @@ ROUND = Tube()
         ),
         (
             lambda: linear_modes(told(UNIT, 0.0, 1.0, 0.5), 1.0, only="torsion"),
-            "has 0 torsion modes: motion without stiffness or inertia",
+            "has 0 torsion modes: .* no motion without stiffness or inertia has",
         ),
         (
             lambda: linear_modes(

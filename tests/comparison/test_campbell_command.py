@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import Tube, linear_modes
-from rotbeam_exu import load
+from rotbeam_exu import load, load_beam
 from rotbeam_exu.cli.campbell import campbell as command
 from rotbeam_exu.cli.options import SectionOptions
 from tests.beams import BLADE_TOML, REED, REED_TOML
@@ -34,14 +34,16 @@ def test_the_modes_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
     shape = SectionOptions(section="tube")
     command(**options, shape=shape, out=tmp_path, frequency_max=80.0)
     printed = capsys.readouterr().out
-    modes = linear_modes(beam.with_shape(Tube()), 12.0, 3)
+    modes = linear_modes(beam.with_shape(Tube()), 12.0, 4)
     written = sorted(path.name for path in tmp_path.iterdir())
     ends = ("-crossing_mode.csv", "-frequency.csv", ".nc", ".pdf", ".png")
     assert written == [f"campbell-tube{end}" for end in ends]
     assert all(name in printed for name in written)
     found = load(tmp_path / "campbell-tube.nc")
     assert set(found["mode"].to_numpy()) == {"lag 1", "flap 1", "flap 2"}
-    for name, frequency in zip(modes.names, modes.frequencies, strict=True):
+    known = dict(zip(modes.names, modes.frequencies, strict=True))
+    for name in found["mode"].to_numpy():
+        frequency = known[name]
         assert found["frequency"].sel(mode=name)[-1] == pytest.approx(frequency, rel=1e-9)
     with pytest.raises(FileExistsError, match="--force"):
         command(**options | {"points": 4}, shape=shape, out=tmp_path)
@@ -80,9 +82,13 @@ def test_a_blade_set_at_a_right_angle_flaps(tmp_path, capsys):
         assert name in printed
 
 
-def test_a_table_prints_torsion_to_the_digits_that_are_known(capsys):
+def test_a_table_prints_torsion_to_the_digits_that_are_known(tmp_path, capsys):
     """0.1 % is what a clamp that holds the warping changes: four digits, not eight."""
-    command(omega_max=4.0, points=2, count=15, orders=1, shape=SectionOptions(section="rectangle"))
+    known = f"{BLADE_TOML}[blade.section.out_of_plane]\nbending_ratio = 1.0\ntorsion_ratio = 1e-4\n"
+    (tmp_path / "blade.toml").write_text(known)
+    command(config=tmp_path / "blade.toml", omega_max=4.0, points=2, count=4, orders=1)
     printed = capsys.readouterr().out
-    assert " 64.49 " in printed
-    assert "64.49" in printed
+    blade = load_beam(tmp_path / "blade.toml")
+    (torsion,) = linear_modes(blade, 4.0, 1, only="torsion").frequencies
+    assert f" {torsion:#.4g} " in printed
+    assert f"{torsion:#.5g}" not in printed

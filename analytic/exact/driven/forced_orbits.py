@@ -155,7 +155,7 @@ class ForcedResponse(Branch):
         """Return the mode and the gauge of the backbone."""
         if not self.nondimensional[0].system.model.in_space:
             return {}
-        return {"mode": f"{self.gauge} 1", "gauge": self.gauge}
+        return {"mode": f"{self.gauge} 1"}
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.

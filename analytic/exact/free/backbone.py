@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
@@ -14,7 +14,7 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.steady import resolved_model
 from ..linear.modes import mode_name
-from ..space.modes import DIRECTIONS, orbit_modes, require_gauge
+from ..space.modes import DIRECTIONS, orbit_modes
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
@@ -167,7 +167,6 @@ def backbone(
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
-    gauge: Literal["lag", "flap"] | None = None,
 ) -> Backbone:
     """Return the backbone of a mode: its orbits, their curve, and what branches off.
 
@@ -179,14 +178,13 @@ def backbone(
         Rotation speed ω [rad/s].
     mode : str or int
         Mode from which the orbits grow, by its name in `linear_modes`, or by its number there,
-        from 1. Modes of torsion and of axial motion do not move the tip across: they are refused.
+        from 1. The amplitude is the peak of the tip in its family, lag or flap. Modes of torsion
+        and of axial motion do not move the tip across: they are refused.
     theory : Theory
         Extension, shear and rotary inertia.
     functions : int
         Least number of functions for the tangent's angle, half as many for each curvature in
         space; they grow where an orbit needs more.
-    gauge : {"lag", "flap"}, optional
-        Place of the tip whose peak is the amplitude: by default the family of the mode.
 
     Raises
     ------
@@ -204,8 +202,6 @@ def backbone(
     """
     omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
-    if gauge is not None:
-        require_gauge(gauge)
     require_undamped(beam, _NO_FREE_ORBITS, planar=False)
     name = mode_name(beam, omega, mode, theory)
     family, number = name.split()
@@ -214,12 +210,12 @@ def backbone(
             f"the amplitude of orbits is how far the tip moves across, and mode is {name!r}: take "
             "a mode of lag or flap"
         )
-    out_of_plane = "flap" in (family, gauge) and beam.blade.section.knows_space
+    out_of_plane = family == "flap" and beam.blade.section.knows_space
     if lives_in_space(beam) or out_of_plane:
         in_space = space_continuum(beam, theory, max(functions // 2, 2 * int(number) + 2))
         return SpaceBackbone(
             beam=beam, omega=omega, mode=name, theory=theory, model=in_space,
-            gauge=gauge or family, care=Care(tail=in_space.functions.blade.tail),
+            gauge=family, care=Care(tail=in_space.functions.blade.tail),
         )  # fmt: skip
     require_undamped(beam, _NO_FREE_ORBITS)
     model = resolved_model(beam, int(number), theory, functions)
@@ -234,7 +230,6 @@ def periodic_orbits(
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
-    gauge: Literal["lag", "flap"] | None = None,
 ) -> Orbits:
     """Return the periodic orbits of the exact beam that grow out of one mode.
 
@@ -247,7 +242,7 @@ def periodic_orbits(
 
     Parameters
     ----------
-    beam, omega, mode, theory, functions, gauge
+    beam, omega, mode, theory, functions
         As for `backbone`.
     amplitudes : float or sequence of float
         Peak tip deflections |q|/L, above 0 and below 1, in any order.
@@ -273,7 +268,7 @@ def periodic_orbits(
     >>> print(f"ω_NL = {found.omega_n:.5f} (1 - {found.lambda_omega:.4f} a²) rad/s as a → 0")
     ω_NL = 3.73040 (1 - 0.0197 a²) rad/s as a → 0
     """
-    of = backbone(beam, omega, mode, theory=theory, functions=functions, gauge=gauge)
+    of = backbone(beam, omega, mode, theory=theory, functions=functions)
     return of.orbits(amplitudes)
 
 
