@@ -72,7 +72,7 @@ def dataset_of(*results: Any) -> xr.Dataset:
     >>> spin_up = SpinUp(omega=4.0, ramp_time=3.0)
     >>> data = dataset_of(spin_up_response(Beam.reference(), spin_up, [0.0, 1.5, 3.0]))
     >>> print(*data)
-    q q_dot tip_x tip_y angle root_force_x root_force_y root_moment_z
+    q q_dot tip_x tip_y along flap twist angle root_force_x root_force_y root_moment_z
     >>> print(data.root_moment_z.long_name, data.root_moment_z.units)
     bending moment at the root N m
     """
@@ -92,10 +92,11 @@ def frames_of(*results: Any) -> dict[str, Any]:
     --------
     >>> from analytic import Beam, linear_modes
     >>> from rotbeam_exu.datasets import frames_of
-    >>> print(frames_of(linear_modes(Beam.reference(), omega=6.0, count=2))["frequency"].round(4))
-       mode  frequency
-    0     1     3.7304
-    1     2    23.0101
+    >>> modes = frames_of(linear_modes(Beam.reference(), omega=6.0, count=2))["frequency"]
+    >>> print(modes[["mode", "frequency", "lag_share"]].round(4))
+       mode  frequency  lag_share
+    0     1     3.7304        1.0
+    1     2    23.0101        1.0
     """
     frames = {}
     for name, part in parts(dataset_of(*results)).items():

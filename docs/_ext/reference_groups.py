@@ -40,7 +40,6 @@ GROUPS = (
         analytic="linear_modes campbell damping_ratios steady_state",
         analytic__exact__linear__modes="LinearModes",
         analytic__exact__linear__campbell="Campbell Crossing",
-        analytic__exact__space__modes="SpaceModes",
     ),
     _group(
         "Backbone",
