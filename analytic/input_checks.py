@@ -15,6 +15,7 @@ from numbers import Integral, Real
 import numpy as np
 
 from .arrays import FloatArray, Profile
+from .letters import is_unseen
 from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
 from .warning import warn
 
@@ -85,7 +86,10 @@ def finite_number(name: str, value: object, unit: str = "") -> float:
     value = bare(name, value, unit)
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:  # a whole number of more than 308 digits
+        number = math.inf
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
     return number
@@ -108,6 +112,21 @@ def flag(name: str, value: object) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False, got {shown(value)}")
     return bool(value)
+
+
+def plain_text(name: str, value: object, longest: int) -> str:
+    """Return a text of at most `longest` letters, all of which a reader sees."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} must be text in quotes, got {shown(value)}")
+    if len(value) > longest:
+        raise ValueError(f"{name} has {len(value):,} letters, more than {longest:,}: shorten it")
+    for place, letter in enumerate(value):
+        if is_unseen(letter):
+            near = ascii(value[max(place - 15, 0) : place + 15])
+            raise ValueError(
+                f"{name} has a letter that no reader sees, {letter!a} in {near}: leave it out"
+            )
+    return value
 
 
 def peak_deflection(name: str, value: object) -> float:

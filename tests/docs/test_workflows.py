@@ -1,4 +1,4 @@
-"""Workflows: actions by commit, and a right to publish where nothing of others is installed or run."""
+"""Workflows: actions by commit, and a right to publish where nothing of others is run."""
 
 import re
 from itertools import pairwise

@@ -18,7 +18,7 @@ from rotbeam_exu.verification.submission_files.faults import MalformedSubmission
 
 DECLARATION = Declaration(
     code="Balken", version="2.1", url="https://example.org", licence="MIT", element="B22",
-    machine="one core", remarks='of "two\nlines", and a tail\x7f', authors=("A. Å.", "B"),
+    machine="one core", remarks='of "two\nlines", and\ta tail', authors=("A. Å.", "B"),
     theory=Theory(rotary_inertia=True, shear=0.3205, engesser=True), inextensible=True,
     order=4.0, order_in_step=2.0, benchmark=VERSION,
 )  # fmt: skip
