@@ -1,5 +1,6 @@
-"""Letters that a reader does not see; without NumPy, for the command line starts with it."""
+"""Texts that users give, and letters that no reader sees; without NumPy, for a quick start."""
 
+import reprlib
 import unicodedata
 
 _STEERING = {"Cc", "Cf", "Cs", "Zl", "Zp"}
@@ -15,3 +16,18 @@ _WITHOUT_WIDTH = frozenset(
 def is_unseen(letter: str) -> bool:
     """Return whether a letter has no width, or steers a terminal or the direction of writing."""
     return unicodedata.category(letter) in _STEERING or letter in _WITHOUT_WIDTH
+
+
+def plain_text(name: str, value: object, longest: int) -> str:
+    """Return a text of at most `longest` letters, all of which a reader sees."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} must be text in quotes, got {reprlib.repr(value)}")
+    if len(value) > longest:
+        raise ValueError(f"{name} has {len(value):,} letters, more than {longest:,}: shorten it")
+    for place, letter in enumerate(value):
+        if is_unseen(letter):
+            near = ascii(value[max(place - 15, 0) : place + 15])
+            raise ValueError(
+                f"{name} has a letter that no reader sees, {letter!a} in {near}: leave it out"
+            )
+    return value

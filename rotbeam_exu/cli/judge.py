@@ -261,13 +261,11 @@ def _finest(one: Judgement, cell: Callable[[Run], str]) -> str:
 
 def _times(found: Sequence[Judgement]) -> dict[str, list[str]]:
     """Return the column of times on the clock, or else of the processor; none if none is known."""
-    for name, field in (("s", "wall"), ("CPU s", "cpu")):
-        cells = [
-            _finest(one, lambda run, field=field: formatted([getattr(run, field)], ".1f")[0])
-            for one in found
-        ]
-        if set(cells) != {"-"}:
-            return {name: cells}
+    runs = [next(iter(one.histories.values())).finest if one.histories else None for one in found]
+    for name in ("wall", "cpu"):
+        times = [getattr(run, name, math.nan) for run in runs]
+        if not all(map(math.isnan, times)):
+            return {{"wall": "s", "cpu": "CPU s"}[name]: formatted(times, ".1f")}
     return {}
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from analytic.arrays import FloatArray
-from analytic.input_checks import finite_number, plain_text
+from analytic.input_checks import finite_number
+from analytic.letters import plain_text
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from .cases import Case

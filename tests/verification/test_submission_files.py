@@ -255,7 +255,11 @@ FAULTS = [
         lambda text: text.replace("Engesser", "Haringx"),
         "must be Reissner or Engesser",
     ),
-    ("entry.toml", lambda text: text.replace("order = 4.0", "order = -4"), "must be positive"),
+    (
+        "entry.toml",
+        lambda text: text.replace("order = 4.0", "order = -4"),
+        "must be from 0.1 to 20",
+    ),
     ("entry.toml", lambda text: text.replace("order = 4.0", "order = 'a'"), "must be a number"),
 ]
 

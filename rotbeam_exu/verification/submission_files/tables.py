@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from analytic.input_checks import plain_text
+from analytic.letters import plain_text
 
 from ..cases import CASES, TIP, Asked, Case
 from ..submission import LONGEST_REMARKS
