@@ -111,7 +111,7 @@ class StrainFunctions:
 
     @property
     def uncoupled(self) -> bool:
-        """Whether flap, torsion, and lag with axial motion do without each other."""
+        """Whether lag and axial motion go without flap and torsion."""
         return self.blade.half_turn and self.blade.mirrored
 
     @cached_property

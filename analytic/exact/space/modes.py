@@ -180,15 +180,17 @@ def _modes_of(blade: AnyBlade, omega: float, steady: SpaceBlade) -> LinearModes:
 def _solved(steady: SpaceBlade) -> tuple[FloatArray, ComplexArray]:
     """Return the frequencies, ascending, and the shapes (n, modes) in columns.
 
-    Of a blade whose flap, lag and torsion do not couple each block is solved alone: equal
-    frequencies of two blocks would mix them.
+    Where lag goes without flap and torsion each block is solved alone: equal frequencies of both
+    would mix them.
     """
     functions = steady.model.functions
     if not functions.uncoupled or steady.push is not None:
         return _block(steady, np.arange(steady.size))
     turned, mirrored = functions.odd_by(mirror=False), functions.odd_by(mirror=True)
-    blocks = turned == mirrored, turned & ~mirrored, ~turned & mirrored
-    parts = [_block(steady, np.flatnonzero(one)) for one in blocks if one.any()]
+    # The mirror through the plane keeps lag and axial motion, and turns flap and torsion around.
+    parts = [
+        _block(steady, np.flatnonzero(one)) for one in (turned == mirrored, turned != mirrored)
+    ]
     frequencies, shapes = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
     order = np.argsort(frequencies, kind="stable")
     return frequencies[order], shapes[:, order]
