@@ -169,7 +169,7 @@ class SpaceBlade(AtConstantRate):
 
         None where it may be one of another branch: the tangent must stay stable, and the second
         change be less than a quarter of the first, as it is where the theorem of Newton and
-        Kantorovich holds (Deuflhard, Newton Methods for Nonlinear Problems, 2011, Sec. 5.1).
+        Kantorovich holds (Deuflhard, Newton Methods for Nonlinear Problems, 2011).
         """
         still, rate = np.zeros((1, self.size)), share * self.rate
         push = None if self.push is None else share * self.push
