@@ -12,6 +12,7 @@ def tables_of(data: xr.Dataset) -> dict[str, Any]:
 
     A frequency over speed and mode is there twice, the second time with a column per mode.
     """
+    wide: Any
     tables = {}
     for name, part in parts(data).items():
         titles = {one: title(part[one]) for one in part.variables}
