@@ -8,4 +8,4 @@ Frame = Literal["inertial", "rotating"]
 Element = Literal[
     "cable", "exact", "ancf3", "linear", "substructures", "space_cable", "space_exact"
 ]
-"""The formulations that a file may name; a class of the user's is named on the command line alone."""
+"""The formulations that a file may name; a user's class is for the command line alone."""

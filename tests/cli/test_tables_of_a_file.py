@@ -104,7 +104,8 @@ def test_a_command_uses_or_names_all_of_a_table(call, tmp_path, monkeypatch, com
 def strange(tmp_path, monkeypatch):
     """A folder with a stranger's module, whose code leaves a file."""
     (tmp_path / "evil.py").write_text(
-        "import pathlib\npathlib.Path('IMPORTED').touch()\n\ndef Foo():\n    pathlib.Path('CALLED').touch()\n"
+        "from pathlib import Path\nPath('IMPORTED').touch()\n"
+        "def Foo():\n    Path('CALLED').touch()\n"
     )
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [*sys.path])
