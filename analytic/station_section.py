@@ -14,13 +14,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, Profile
-from .input_checks import finite_array
+from .input_checks import finite_array, finite_values, require_ascending, require_offset
 from .section import OutOfPlane, Section
 
 _EVEN = 1e-6  # of a matrix whose entries a table rounds
 _POSITIVE = 1e-12  # least stiffness, over that of the axes alone
 
 STIFFNESSES = ("EA", "GA2", "GA3", "GJ", "EI2", "EI3")
+MASSES = ("m", "j1", "j2", "j3")
 
 Matrix = tuple[tuple[float, ...], ...]
 
@@ -33,7 +34,7 @@ def hat(vector: FloatArray) -> FloatArray:
     return result
 
 
-def moved(matrices: FloatArray, offset: ArrayLike) -> FloatArray:
+def moved(matrices: FloatArray, offset: FloatArray) -> FloatArray:
     """Return matrices (stations, 6, 6) for the line, from which their own axis has an offset.
 
     The axis has the strain Γ - a × κ and the velocity v - a × ω, a = (0, c2, c3), of a rigid
@@ -46,28 +47,63 @@ def moved(matrices: FloatArray, offset: ArrayLike) -> FloatArray:
     return np.asarray(np.swapaxes(onto, 1, 2) @ matrices @ onto)
 
 
-def _columns(name: str, values: ArrayLike, names: tuple[str, ...]) -> FloatArray:
-    found = finite_array(name, values)
-    if found.shape[1:] != (len(names),):
+def _offsets(name: str, values: ArrayLike, x: FloatArray) -> FloatArray:
+    """Return (c2, c3) [m] at each of the stations `x`, (stations, 2); zeros of the number 0."""
+    pairs = finite_array(name, values, "m")
+    if pairs.ndim == 0 and pairs == 0.0:
+        return np.zeros((x.size, 2))
+    if pairs.shape != (x.size, 2):
         raise ValueError(
-            f"{name} must have the columns {', '.join(names)}, or be 6x6 matrices, at each "
-            f"station, got {found.shape}"
+            f"{name} must be a pair (c2, c3) [m] at each of the {x.size} stations, got the shape "
+            f"{pairs.shape}: if it is the same at all, give [[c2, c3]] * {x.size}"
+        )
+    require_offset(name, pairs, x[-1])
+    return pairs
+
+
+def _table(name: str, values: ArrayLike, columns: tuple[str, ...], x: FloatArray) -> FloatArray:
+    """Return columns (stations, columns) or matrices (stations, 6, 6)."""
+    found = finite_array(name, values, None)
+    if found.shape not in ((x.size, len(columns)), (x.size, 6, 6)):
+        raise ValueError(
+            f"{name} must have the columns {', '.join(columns)}, or be 6x6 matrices, at each of "
+            f"the {x.size} stations, got {found.shape}"
         )
     return found
 
 
-def stiffness_of(values: ArrayLike, tension: ArrayLike, shear: ArrayLike) -> FloatArray:
+def _stiffness_of(columns: FloatArray, tension: FloatArray, shear: FloatArray) -> FloatArray:
     """Return the matrices of EA, GA2, GA3, GJ, EI2, EI3 about centers of tension and of shear."""
-    columns = _columns("stiffness", values, STIFFNESSES)
     axial, across = (columns * mask for mask in ([1, 0, 0, 0, 1, 1], [0, 1, 1, 1, 0, 0]))
     parts = ((axial, tension), (across, shear))
     return np.asarray(sum(moved(part[:, :, None] * np.eye(6), at) for part, at in parts))
 
 
-def mass_of(values: ArrayLike, center: ArrayLike) -> FloatArray:
+def _mass_of(columns: FloatArray, center: FloatArray) -> FloatArray:
     """Return the matrices of m, j1, j2, j3 about centers of mass."""
-    columns = _columns("mass", values, ("m", "j1", "j2", "j3"))
     return moved(columns[:, [0, 0, 0, 1, 2, 3], None] * np.eye(6), center)
+
+
+def section_of_table(
+    x: ArrayLike, stiffness: ArrayLike, mass: ArrayLike, **centers: ArrayLike
+) -> StationSection:
+    """Return the section of a table of `Blade.from_stations`, about the blade's line."""
+    at = finite_values("x", x, "m")
+    require_ascending("x", at.tolist(), "m")
+    places = {name: _offsets(name, values, at) for name, values in centers.items()}
+    S, M = _table("stiffness", stiffness, STIFFNESSES, at), _table("mass", mass, MASSES, at)
+    for name, table in (("tension", S), ("shear", S), ("center", M)):
+        if table.ndim == 3 and places[name].any():
+            raise ValueError(
+                f"{name} is a center of columns, and 6x6 matrices have theirs in them: leave it "
+                "out, or give axis, which moves matrices"
+            )
+    if S.ndim == 2:
+        S = _stiffness_of(S, places["tension"], places["shear"])
+    if M.ndim == 2:
+        M = _mass_of(M, places["center"])
+    S, M = (moved(matrices, places["axis"]) for matrices in (S, M))
+    return StationSection(x=tuple(at.tolist()), stiffness=nested(S), mass=nested(M))
 
 
 @dataclass(frozen=True, kw_only=True)
