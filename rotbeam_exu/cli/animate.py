@@ -72,7 +72,7 @@ def animate(
     whole_number("rate", rate)
     kept = None if run is None else load(run)
     if kept is None:
-        file = configured(config)
+        file = configured(config, "motion", "numerics.duration")
         beam = file.beam
         spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
         speed, ramp = spin_up.omega, spin_up.ramp_time
