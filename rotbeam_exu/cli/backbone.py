@@ -69,7 +69,7 @@ def backbone(
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
     $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
-    file = configured(config)
+    file = configured(config, "motion.omega")
     omega = omega_of(file, omega)
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")

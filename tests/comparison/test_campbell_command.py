@@ -36,7 +36,8 @@ def test_the_modes_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
     printed = capsys.readouterr().out
     modes = linear_modes(beam.with_shape(Tube()), 12.0, 4)
     written = sorted(path.name for path in tmp_path.iterdir())
-    ends = ("-crossing_mode.csv", "-frequency.csv", ".nc", ".pdf", ".png")
+    ends = ("-crossing_mode.csv", "-frequency-wide.csv", "-frequency.csv")
+    ends += (".json", ".nc", ".pdf", ".png")
     assert written == [f"campbell-tube{end}" for end in ends]
     assert all(name in printed for name in written)
     found = load(tmp_path / "campbell-tube.nc")
