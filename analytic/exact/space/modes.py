@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_out_of_plane
@@ -105,36 +105,41 @@ class LinearModes:
         return place[:, :-1] / largest, turn[:-1] / largest
 
 
-def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> LinearModes:
-    """Return the lowest modes of the twist of a planar blade, which in the plane is alone.
+def modes_across(
+    blade: AnyBlade, omega: float, count: int, theory: Theory, family: str
+) -> LinearModes:
+    """Return the lowest modes of "flap" or "torsion" of a planar blade, each alone.
 
-    The trapeze effect and the propeller moment stiffen it. Of the paper's rectangle at 12 rad/s the
-    first is at 64.49 rad/s without either, at 65.59 with the propeller moment alone, and at 66.75
-    with both.
+    They are independent but for the Coriolis force 2ωj2 of slices with rotary inertia, which is
+    left out. The trapeze effect and the propeller moment stiffen torsion. Of the paper's rectangle
+    at 12 rad/s its first is at 64.49 rad/s without either, at 65.59 with the propeller moment
+    alone, and at 66.75 with both.
     """
     known = require_out_of_plane(blade, torsion=False)
-    if known.torsion_ratio is None or math.isinf(known.torsion_ratio):
+    if family == "flap":
+        if known.torsion_ratio is None:
+            rigid = blade.with_section_out_of_plane(known.bending_ratio, math.inf)
+            return replace(space_modes(rigid, omega, count, theory, family), beam=blade)
+    elif known.torsion_ratio is None or math.isinf(known.torsion_ratio):
         raise ValueError(
             "torsion has no modes where torsion_ratio is unknown or infinite: give GJ/EI by "
             "with_section_out_of_plane or with_shape"
         )
-    told = blade.section.rotary_inertia
-    massless = told == 0.0 if told is not None else not (theory.trapeze or theory.rotary_inertia)
-    if massless:
+    elif blade.section.rotary_inertia == 0.0:
         raise ValueError(
-            "torsion has no modes without inertia of the slices: leave rotary_inertia out, for "
-            "that of a homogeneous section, and trapeze=False"
+            "torsion has no modes without inertia of the slices: leave rotary_inertia out of the "
+            "section, for that of a homogeneous one"
         )
-    return space_modes(blade, omega, count, theory, torsion=True)
+    return space_modes(blade, omega, count, theory, family)
 
 
 def space_modes(
-    blade: AnyBlade, omega: float, count: int, theory: Theory, *, torsion: bool = False
+    blade: AnyBlade, omega: float, count: int, theory: Theory, family: str | None = None
 ) -> LinearModes:
-    """Return the lowest modes, or those of torsion alone, on more functions until they settle."""
+    """Return the lowest modes, or those of a family alone, on more functions until they settle."""
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
     _, (steady, (found, shapes)), error = settled(
-        lambda one: (one, _solved(one, torsion)),
+        lambda one: (one, _solved(one, family)),
         finer_blades(space_rotation(blade, omega, model)),
         model.functions.blade.tolerance,
         lambda solved: np.log(solved[1][0][:count]),
@@ -150,7 +155,7 @@ def space_modes_on(
     omega: float,
     count: int,
     *,
-    torsion: bool = False,
+    family: str | None = None,
     near: LinearModes | None = None,
 ) -> LinearModes:
     """Return the modes on a discretization that is known to resolve them, unchecked.
@@ -160,7 +165,7 @@ def space_modes_on(
     steady = space_rotation(blade, omega, model)
     if near is not None and abs(near.omega - omega) <= LONGEST * blade.frequency_scale:
         steady = replace(steady, near=near._steady)
-    found, shapes = _solved(steady, torsion)
+    found, shapes = _solved(steady, family)
     return _packed(blade, omega, steady, found[:count], shapes[:, :count], math.nan)
 
 
@@ -186,22 +191,25 @@ def _packed(
     )
 
 
-def _solved(steady: SpaceBlade, torsion: bool = False) -> tuple[FloatArray, ComplexArray]:
+def _solved(steady: SpaceBlade, family: str | None = None) -> tuple[FloatArray, ComplexArray]:
     """Return the frequencies, ascending, and the shapes (n, modes) in columns."""
-    bending, twists, *_ = steady.model.functions.counts
-    return _block(steady, slice(bending, bending + twists) if torsion else slice(None))
+    bending, twists, _, shear = steady.model.functions.counts
+    every = np.arange(steady.size)
+    across = np.append(every[1:bending:2], every[steady.size - shear // 2 :])
+    kinds = {None: every, "flap": across, "torsion": every[bending : bending + twists]}
+    return _block(steady, kinds[family])
 
 
 def flap_shape(model: SpaceContinuum) -> FloatArray:
     """Return the first flap mode of a planar blade at rest, (n,), its tip 1 out of the plane."""
     at_rest = SpaceBlade(model, 0.0, DIRECTIONS["flap"])
-    shape = _block(at_rest, slice(1, model.functions.counts[0], 2))[1][:, 0].real
+    shape = _block(at_rest, np.arange(1, model.functions.counts[0], 2))[1][:, 0].real
     return np.asarray(shape / (at_rest.gauge_gradient(at_rest.equilibrium[None])[0] @ shape))
 
 
-def _block(steady: SpaceBlade, moving: slice) -> tuple[FloatArray, ComplexArray]:
+def _block(steady: SpaceBlade, moving: NDArray[np.intp]) -> tuple[FloatArray, ComplexArray]:
     """Return the same where only some coordinates move."""
-    parts: list[Any] = [part[0, moving, moving] for part in steady.linearized[1:]]
+    parts: list[Any] = [part[0][np.ix_(moving, moving)] for part in steady.linearized[1:]]
     K, C, M = parts
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
     inverse, found = reciprocal_modes(0.5 * (K + K.T), -0.5j * (C - C.T), 0.5 * (M + M.T))
