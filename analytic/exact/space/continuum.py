@@ -322,10 +322,12 @@ class SpaceContinuum:
         del setting
         change, masses = self.changes(q[None]), self.masses
         moved = np.abs(shapes @ change.center[:, 0]) ** 2 @ masses.mass
-        turned = shapes @ change.turn_m[:, 0]
-        twist = np.einsum("ikp,ijp,jkp->k", turned.conj(), masses.inertia, turned).real
+        frame = self._state(q[None]).frame_m[:, :, 0]
+        spin = np.einsum("ijp,ikp->jkp", frame, shapes @ change.turn_m[:, 0])  # in R's axes
+        turning = np.einsum("ikp,ijp,jkp->k", spin.conj(), masses.inertia, spin).real
+        twist = np.abs(spin[0]) ** 2 @ masses.inertia[0, 0]
         parts = np.stack((moved[2], moved[1], twist), axis=-1)
-        return np.asarray(parts / (moved.sum(axis=0) + twist)[:, None])
+        return np.asarray(parts / (moved.sum(axis=0) + turning)[:, None])
 
     def struck(self, speed: float) -> FloatArray:
         """Return the rates (n,) of a straight blade that flaps as `kicked_state` has it."""

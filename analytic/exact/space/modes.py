@@ -19,6 +19,7 @@ from .continuum import SpaceContinuum
 from .steady import FUNCTIONS, LONGEST, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
+_ONLY_TWISTS = 1e-6  # displacement of the tip over the length, times its turn
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
 """Directions of the tip, in the root frame, whose peak may be called the amplitude."""
 
@@ -75,7 +76,7 @@ class LinearModes:
         """Return the displacements at `x` [m] normal to it and to the clamp, (points, count).
 
         On the scale of `lag`: the largest of all is 1 at the tip. In space the phase tells which is
-        ahead. Where the tip only twists, the twist is.
+        ahead. Where the tip only twists, to 1e-6 of its turn times the length, the twist is.
         """
         return self._moved(x)[0][2]
 
@@ -101,19 +102,20 @@ class LinearModes:
         if not self.model.in_space:
             sign = np.sign(math.cos(self.setting) * tip[1] + math.sin(self.setting) * tip[2])
             largest = np.where(k[0] == 1, sign * largest, largest)
-        largest = np.where(largest == 0.0, turn[-1], largest)
+        only = np.abs(largest) < _ONLY_TWISTS * length * np.abs(turn[-1])
+        largest = np.where(only, turn[-1], largest)
         return place[:, :-1] / largest, turn[:-1] / largest
 
 
 def modes_across(
     blade: AnyBlade, omega: float, count: int, theory: Theory, family: str
 ) -> LinearModes:
-    """Return the lowest modes of "flap" or "torsion" of a planar blade, each alone.
+    """Return the lowest modes of "flap" or "torsion" of a planar blade, by their larger share.
 
-    They are independent but for the Coriolis force 2ωj2 of slices with rotary inertia, which is
-    left out. The trapeze effect and the propeller moment stiffen torsion. Of the paper's rectangle
-    at 12 rad/s its first is at 64.49 rad/s without either, at 65.59 with the propeller moment
-    alone, and at 66.75 with both.
+    Both move without lag, and without each other unless slices have rotary inertia. The trapeze
+    effect and the propeller moment stiffen torsion. Of the paper's rectangle at 12 rad/s its first
+    is at 64.49 rad/s without either, at 65.59 with the propeller moment alone, and at 66.75 with
+    both.
     """
     known = require_out_of_plane(blade, torsion=False)
     if family == "flap":
@@ -193,11 +195,15 @@ def _packed(
 
 def _solved(steady: SpaceBlade, family: str | None = None) -> tuple[FloatArray, ComplexArray]:
     """Return the frequencies, ascending, and the shapes (n, modes) in columns."""
-    bending, twists, _, shear = steady.model.functions.counts
     every = np.arange(steady.size)
-    across = np.append(every[1:bending:2], every[steady.size - shear // 2 :])
-    kinds = {None: every, "flap": across, "torsion": every[bending : bending + twists]}
-    return _block(steady, kinds[family])
+    if family is None:
+        return _block(steady, every)
+    bending, twists, _, shear = steady.model.functions.counts
+    apart = every[1:bending:2], every[bending : bending + twists], every[every.size - shear // 2 :]
+    frequencies, shapes = _block(steady, np.concatenate(apart))
+    torsion = steady.model.shares(steady.equilibrium, shapes.T)[:, 2] > 0.5
+    kept = torsion == (family == "torsion")
+    return frequencies[kept], shapes[:, kept]
 
 
 def flap_shape(model: SpaceContinuum) -> FloatArray:
