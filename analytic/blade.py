@@ -19,14 +19,22 @@ from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, Profile, evaluated, in_units
 from .description import Described
-from .input_checks import finite_array, finite_number, not_negative, positive, shown
+from .input_checks import (
+    along,
+    checked_angle,
+    checked_profile,
+    finite_values,
+    not_negative,
+    positive,
+    require_offset,
+    shown,
+)
 from .parts import STRAIGHT, UNDAMPED, Damping, Line, Offset, PointMass
 from .section import OutOfPlane, Section
-from .section_shapes import Gyration, SectionShape
+from .section_shapes import Gyration, SectionShape, require_shape
 from .shape_functions import shape_functions
-from .station_section import StationSection, mass_of, moved, nested, stiffness_of
+from .station_section import Interpolation, section_of_table
 from .unit_blade import UnitBlade
-from .warning import warn
 
 _FUNCTIONS, _POINTS = 24, 32  # for scales: ω0 and the burst speed
 _HEAVY = 1000.0  # masses above this many times the blade's are taken for a slip in units
@@ -82,7 +90,8 @@ class Variations(Described, abstract=True):
         By `angle` [rad] at the tip and in proportion before, if it is one number; else by
         coefficients of 1, x/L, ... or by stations (x [m], angle).
         """
-        return self._with_line(twist=(0.0, angle) if np.ndim(angle) == 0 else angle)
+        twist = checked_profile("twist", angle, "rad")
+        return self._with_line(twist=twist if isinstance(twist, tuple) else (0.0, twist))
 
     def with_precone(self, angle: float) -> Blade:
         """Return the blade whose clamp points out of the plane of rotation by `angle` [rad]."""
@@ -146,8 +155,7 @@ class Variations(Described, abstract=True):
         A `Beam` has A and I; a `Blade` has EA and EI, so that the material of its shape, and A,
         are free. The ratios out of the plane hold all along the blade.
         """
-        if not isinstance(shape, SectionShape):
-            raise TypeError(f"a SectionShape is needed, got {shown(shape)}: as Rectangle()")
+        require_shape(shape)
         return self._with_out_of_plane(shape.out_of_plane(self.gyration))
 
     def _with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Blade:
@@ -201,37 +209,28 @@ class Blade(Variations):
         self._keep(
             length=positive("length", self.length, "m"),
             hub_radius=not_negative("hub_radius", self.hub_radius, "m"),
-            setting_angle=finite_number("setting_angle", self.setting_angle, "rad"),
+            setting_angle=checked_angle("setting_angle", self.setting_angle),
             point_masses=_several(self.point_masses),
         )
-        if abs(self.setting_angle) > 2.0 * math.pi:
-            warn(
-                f"setting_angle = {self.setting_angle:g} rad is more than a turn: degrees? "
-                f"{self.setting_angle:g} degrees are {math.radians(self.setting_angle):.4g} rad"
-            )
         for name, kind in (("section", Section), ("damping", Damping), ("line", Line)):
             if not isinstance(getattr(self, name), kind):
                 raise TypeError(
                     f"{name} must be a {kind.__name__}, got {shown(getattr(self, name))}"
                 )
         self.section.require_along(self.length)
+        self.line.require_along(self.length)
         told = (*self.line.mass_offset, *self.line.tension_offset)
         if self.section.at_stations and any(told):
             raise ValueError(
                 "the stations tell where the centers are: leave with_offsets out, or give "
                 "from_stations the offsets tension, shear and center"
             )
-        for x, *_ in self.line.kinks:
-            if not x < self.length:
-                raise ValueError(
-                    f"a kink at {x:g} m is not between clamp and tip, at {self.length:g} m: take "
-                    "its place from the clamp, not from the axis"
-                )
         self._require_masses()
 
     def _require_masses(self) -> None:
         own = self.mass - sum(one.mass for one in self.point_masses)
         for one in self.point_masses:
+            require_offset("the offset of a point mass", one.offset, self.length)
             if one.position > self.length * (1.0 + 1e-12):
                 raise ValueError(
                     f"a point mass at {one.position:g} m is beyond the tip at {self.length:g} m: "
@@ -255,6 +254,7 @@ class Blade(Variations):
         shear: ArrayLike = 0.0,
         center: ArrayLike = 0.0,
         axis: ArrayLike = 0.0,
+        interpolation: Interpolation = "components",
     ) -> Blade:
         """Return a blade in space from a table of its sections, linear between its stations.
 
@@ -271,17 +271,25 @@ class Blade(Variations):
         mass : array_like (stations, 4) or (stations, 6, 6)
             m [kg/m], and j1 (torsion), j2 and j3 [kg m] about the center of mass, or matrices.
         twist : array_like (stations,)
-            [rad], from the chord towards the thickness.
+            [rad], from the chord towards the thickness; or one number for all.
         tension, shear, center : array_like (stations, 2)
             (c2, c3) [m] of the centers of tension, shear and mass, about which columns are given,
-            from the axis of the table.
+            from the axis of the table; matrices have theirs in them.
         axis : array_like (stations, 2)
             (c2, c3) [m] of the table's axis from the blade's line, by which matrices are moved.
+        interpolation : {"components", "matrix"}
+            Linear between stations are the places of the centers and what is given about them, of
+            matrices as of columns; or, as in BeamDyn, the matrices about the line, which makes
+            sections between two stations stiffer, by up to EA Δc²/4 in bending.
 
         Raises
         ------
         ValueError
-            If a matrix is not symmetric or not positive, or the stations do not ascend from 0.
+            If a matrix is not symmetric or not positive, the stations do not ascend from 0, or
+            centers come with matrices.
+        TypeError
+            If a value is no number. Quantities of a units library are converted in `x`, `twist`
+            and the offsets, and refused in `stiffness` and `mass`, whose columns differ in unit.
 
         Examples
         --------
@@ -292,18 +300,13 @@ class Blade(Variations):
         >>> linear_modes(blade.with_hub_radius(1.0), omega=6.0, count=2).frequencies.round(3)
         array([5.356, 6.891])
         """
-        at, angle = finite_array("x", x, "m").ravel(), finite_array("twist", twist, "rad")
-        S, M = np.asarray(stiffness, dtype=float), np.asarray(mass, dtype=float)
-        if S.ndim == 2:
-            S = stiffness_of(S, tension, shear)
-        if M.ndim == 2:
-            M = mass_of(M, center)
-        places = tuple(at.tolist())
-        section = StationSection(
-            x=places, stiffness=nested(moved(S, axis)), mass=nested(moved(M, axis))
-        )
-        turned = zip(places, np.broadcast_to(angle, at.shape).tolist(), strict=True)
-        return cls(length=places[-1], section=section, line=Line(twist=tuple(turned)))
+        section = section_of_table(
+            x, stiffness, mass, interpolation,
+            tension=tension, shear=shear, center=center, axis=axis,
+        )  # fmt: skip
+        angles = along("twist", twist, len(section.x), "rad").tolist()
+        line = Line(twist=tuple(zip(section.x, angles, strict=True)))
+        return cls(length=section.x[-1], section=section, line=line)
 
     @classmethod
     def from_shapes(
@@ -337,14 +340,19 @@ class Blade(Variations):
         >>> print(f"{blade.mass:.3f} kg")
         3.024 kg
         """
-        materials = np.broadcast_arrays(
-            finite_array("youngs_modulus", youngs_modulus, "Pa"),
-            finite_array("density", density, "kg/m^3"),
-            finite_array("x", x, "m"),
-        )
-        sections = zip(shapes, *(one.tolist() for one in materials[:2]), strict=True)
+        stations = finite_values("x", x, "m").size
+        if not isinstance(shapes, (list, tuple)) or len(shapes) != stations:
+            raise TypeError(
+                f"shapes must be one at each of the {stations} stations, got {shown(shapes)}: as "
+                f"[Ellipse(height=0.2, width=0.1)] * {stations}"
+            )
+        E = along("youngs_modulus", youngs_modulus, stations, "Pa").tolist()
+        rho = along("density", density, stations, "kg/m^3").tolist()
+        for shape in shapes:
+            require_shape(shape)
         stiffness, mass = zip(
-            *(shape.of_material(E, rho) for shape, E, rho in sections), strict=True
+            *(shape.of_material(*own) for shape, *own in zip(shapes, E, rho, strict=True)),
+            strict=True,
         )
         return cls.from_stations(x, stiffness, mass, twist=twist)
 

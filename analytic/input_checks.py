@@ -11,10 +11,12 @@ import math
 import reprlib
 from collections.abc import Iterable
 from numbers import Integral, Real
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .arrays import FloatArray, Profile
+from .arrays import FloatArray, Profile, stations
 from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
 from .warning import warn
 
@@ -24,11 +26,19 @@ _SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "cycle")
 
 
-def bare(name: str, value: object, unit: str) -> object:
-    """Return a quantity of a units library as its number in `unit`, anything else as it is."""
+def bare(name: str, value: object, unit: str | None) -> object:
+    """Return a quantity of a units library as its number in `unit`, anything else as it is.
+
+    Where the unit is None, as of a table whose columns differ in it, a quantity is refused.
+    """
     own = getattr(value, "units", getattr(value, "unit", None))
     if own is None:
         return value
+    if unit is None:
+        raise ValueError(
+            f"{name} has entries of different units, got a quantity in {own}: convert each column "
+            "to SI and give the numbers"
+        )
     if isinstance(own, str):  # a label, as xarray's arrays carry it, converts nothing
         if own == (unit or "1"):
             return np.asarray(value)[()]
@@ -48,19 +58,19 @@ def bare(name: str, value: object, unit: str) -> object:
     return bare
 
 
-def _unit(unit: str) -> str:
+def _unit(unit: str | None) -> str:
     return f" {unit}" if unit else ""
 
 
-def _in(unit: str) -> str:
+def _in(unit: str | None) -> str:
     return f" in {unit}" if unit else ""
 
 
 def shown(value: object) -> str:
-    """Return a value as one would type it; of a long one, its beginning and its end."""
+    """Return a value as one would type it, on one line; of a long one, its beginning and end."""
     short = reprlib.Repr()
     short.maxstring = short.maxother = 100
-    return short.repr(value)
+    return " ".join(short.repr(value).split())
 
 
 def positive(name: str, value: object, unit: str = "") -> float:
@@ -83,17 +93,25 @@ def not_negative(name: str, value: object, unit: str = "", remedy: str = "") -> 
 def finite_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float; refuse all but finite numbers."""
     value = bare(name, value, unit)
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if not _is_number(value):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
-    number = float(value)
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except OverflowError:  # a whole number of more than 308 digits
+        number = math.inf
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
     return number
 
 
+def _is_number(value: object) -> bool:
+    """Whether it is a real number; True and NumPy's spans of time count as such in Python alone."""
+    return isinstance(value, Real) and not isinstance(value, (bool, np.timedelta64))
+
+
 def whole_number(name: str, value: object, least: int = 1, most: int | None = None) -> int:
     """Return `value` as an int; refuse all but whole numbers from `least` to `most`."""
-    if isinstance(value, bool) or not isinstance(value, Integral):
+    if not (_is_number(value) and isinstance(value, Integral)):
         raise TypeError(f"{name} must be a whole number, got {shown(value)}")
     number = int(value)
     if number < least:
@@ -108,6 +126,21 @@ def flag(name: str, value: object) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False, got {shown(value)}")
     return bool(value)
+
+
+def checked_angle(name: str, value: object, most: float = math.pi) -> float:
+    """Return an angle [rad]; ask about one beyond `most`, refuse what is none in degrees either."""
+    number = finite_number(name, value, "rad")
+    if abs(number) > 360.0:
+        raise ValueError(
+            f"{name} = {number:g} rad is more than a turn, even if it is in degrees: give it in rad"
+        )
+    if abs(number) > most:
+        warn(
+            f"{name} = {number:g} rad is beyond {most:.4g} rad: in degrees? {number:g} degrees are "
+            f"{math.radians(number):.4g} rad"
+        )
+    return number
 
 
 def peak_deflection(name: str, value: object) -> float:
@@ -145,28 +178,40 @@ def rotation_speed(omega: object, name: str = "omega") -> float:
     )
 
 
-def finite_array(name: str, values: object, unit: str = "") -> FloatArray:
+def finite_array(name: str, values: object, unit: str | None = "") -> FloatArray:
     """Return numbers as an array of their own shape; refuse numbers that are not finite.
 
-    Quantities of a units library are converted to `unit`.
+    Quantities of a units library are converted to `unit`, also in lists; see `bare` for None.
     """
-    values = bare(name, values, unit)
-    if isinstance(values, (list, tuple)):
-        values = [bare(name, item, unit) for item in values]
     try:
-        array = np.asarray(values)
-    except (TypeError, ValueError):  # ragged
-        array = np.array(None)
-    if isinstance(values, np.ma.MaskedArray):  # NumPy would take what is hidden for numbers
-        remedy = "leave out what is masked, by .compressed()"
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got a masked array: {remedy}")
-    fractions = array.dtype.kind == "O" and all(isinstance(item, Real) for item in array.flat)
-    if array.size and array.dtype.kind not in "fiu" and not fractions:
-        raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
-    array = np.asarray(array, dtype=np.float64)
+        array = np.asarray(_nested(name, values, unit), dtype=np.float64)
+    except ValueError as error:
+        if "inhomogeneous" not in str(error):
+            raise
+        raise TypeError(
+            f"{name} must be numbers{_in(unit)}, got lists of different lengths"
+        ) from None
     finite = np.isfinite(array)
     if not finite.all():
         raise ValueError(f"{name} must be finite, got {array[~finite].flat[0]}{_unit(unit)}")
+    return array
+
+
+def _nested(name: str, values: object, unit: str | None) -> Any:
+    """Return numbers or arrays in nested lists; refuse what NumPy would take for numbers."""
+    if isinstance(values, (list, tuple)):
+        return [_nested(name, item, unit) for item in values]
+    values = bare(name, values, unit)
+    if _is_number(values):
+        return values
+    if not callable(getattr(values, "mask", callable)):  # an array's, not the method of pandas
+        remedy = "leave out what is masked, by .compressed()"
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got a masked array: {remedy}")
+    array = np.asarray(values)
+    fractions = array.dtype.kind == "O" and array.ndim and all(map(_is_number, array.flat))
+    empty = isinstance(values, np.ndarray) and not array.size
+    if isinstance(values, bytearray) or not (array.dtype.kind in "fiu" or fractions or empty):
+        raise TypeError(f"{name} must be numbers{_in(unit)}, got {shown(values)}")
     return array
 
 
@@ -176,6 +221,17 @@ def finite_values(name: str, values: object, unit: str = "") -> FloatArray:
     if array.ndim != 1 or array.size == 0:
         raise ValueError(f"{name} must be a sequence of numbers, got shape {array.shape}")
     return array
+
+
+def along(name: str, values: object, count: int, unit: str) -> FloatArray:
+    """Return a number at each of so many stations, from these or from one for all, (stations,)."""
+    array = finite_array(name, values, unit)
+    if array.shape not in ((), (count,)):
+        raise ValueError(
+            f"{name} must be one number{_in(unit)}, or one at each of the {count} stations, got "
+            f"the shape {array.shape}"
+        )
+    return np.broadcast_to(array, count)
 
 
 def require_ascending(name: str, values: Iterable[float], unit: str, where: str = "") -> None:
@@ -214,20 +270,45 @@ def points_of_beam(name: str, x: object, length: float) -> FloatArray:
     return np.clip(points / length, 0.0, 1.0)
 
 
+def require_offset(name: str, offset: ArrayLike, length: float) -> None:
+    """Refuse offsets [m] from the line that are longer than the blade, of `length` [m]."""
+    far = float(np.abs(offset).max())
+    if far > length:
+        raise ValueError(
+            f"{name} is {far:g} m from the line of a blade of {length:g} m: give it in m, at most "
+            "the length"
+        )
+
+
+def require_along(name: str, profile: Profile, length: float) -> None:
+    """Refuse stations that do not run from the clamp to the tip, at `length` [m]."""
+    at = stations(profile)
+    if at and (at[0] != 0.0 or not math.isclose(at[-1], length, rel_tol=1e-9)):
+        raise ValueError(
+            f"the stations of {name} run from {at[0]:g} to {at[-1]:g} m: give them from 0 to the "
+            f"length, {length:g} m"
+        )
+
+
 def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
     """Return a profile of plain numbers and tuples, so that it hashes."""
-    profile = bare(name, profile, unit)
-    if not isinstance(profile, tuple | list | np.ndarray):
+    given, profile = profile, bare(name, profile, unit)
+    if profile is not given and np.ndim(profile) > 1:  # type: ignore[arg-type]
+        raise ValueError(
+            f"{name} has stations (x, value), which differ in unit, in one quantity: give each "
+            "number its unit, or plain numbers in SI"
+        )
+    if not _is_sequence(profile):
         return finite_number(name, profile, unit)
-    items = list(profile)
+    items: list[Any] = list(profile)  # type: ignore[call-overload]
     if not items:
         raise ValueError(f"{name} is empty: give a number, coefficients or stations")
-    if not isinstance(items[0], tuple | list | np.ndarray):
+    if not _is_sequence(items[0]):
         return tuple(_entry(f"{name}[{k}]", value, unit) for k, value in enumerate(items))
     pairs: list[tuple[float, float]] = []
     for k, pair in enumerate(items):
-        if not isinstance(pair, tuple | list | np.ndarray) or len(pair) != 2:
-            raise ValueError(f"{name}[{k}] must be a station (x, value), got {pair!r}")
+        if not _is_sequence(pair) or len(pair) != 2:
+            raise ValueError(f"{name}[{k}] must be a station (x, value), got {shown(pair)}")
         pairs.append((_entry(f"{name}[{k}]", pair[0], "m"), _entry(f"{name}[{k}]", pair[1], unit)))
     if len(pairs) < 2:
         raise ValueError(
@@ -235,6 +316,10 @@ def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
         )
     require_ascending(f"the stations of {name}", [x for x, _ in pairs], "m", "where it steps, ")
     return tuple(pairs)
+
+
+def _is_sequence(value: object) -> bool:
+    return isinstance(value, tuple | list) or (isinstance(value, np.ndarray) and value.ndim > 0)
 
 
 def _entry(name: str, value: object, unit: str = "") -> float:

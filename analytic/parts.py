@@ -2,12 +2,28 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
-from .arrays import Profile, in_units
+import numpy as np
+
+from .arrays import Profile, evaluated, in_units, slope_of, stations
 from .description import Described
-from .input_checks import checked_profile, finite_number, not_negative, positive, whole_number
+from .input_checks import (
+    checked_angle,
+    checked_profile,
+    finite_array,
+    not_negative,
+    positive,
+    require_along,
+    require_offset,
+    shown,
+    whole_number,
+)
+from .warning import warn
+
+_STEEP = 0.5 * math.pi  # of a precone or a kink: beyond it the line comes back
 
 Offset = tuple[float, float]
 """(c2, c3): along the chord, to the leading edge, and along the thickness, of the section."""
@@ -15,13 +31,12 @@ Offset = tuple[float, float]
 
 def checked_offset(name: str, offset: Any) -> Offset:
     """Return an offset as two plain numbers [m]."""
-    try:
-        c2, c3 = offset
-    except (TypeError, ValueError):
+    pair = finite_array(name, offset, "m")
+    if pair.shape != (2,):
         raise TypeError(
-            f"{name} must be a pair (c2, c3) [m], along chord and thickness, got {offset!r}"
-        ) from None
-    return finite_number(f"{name}[0]", c2, "m"), finite_number(f"{name}[1]", c3, "m")
+            f"{name} must be a pair (c2, c3) [m], along chord and thickness, got {shown(offset)}"
+        )
+    return float(pair[0]), float(pair[1])
 
 
 def scaled(offset: Offset, length: float) -> Offset:
@@ -30,17 +45,30 @@ def scaled(offset: Offset, length: float) -> Offset:
 
 
 def _checked_kink(kink: Any) -> tuple[float, float, float]:
-    try:
-        x, about_chord, about_thickness = kink
-    except (TypeError, ValueError):
+    if not isinstance(kink, tuple | list | np.ndarray) or len(kink) != 3:
         raise TypeError(
-            f"a kink must be its place [m] and two angles [rad], got {kink!r}: as (5.0, 0.0, 0.3)"
-        ) from None
-    return (
-        positive("place of a kink", x, "m"),
-        finite_number("angle of a kink", about_chord, "rad"),
-        finite_number("angle of a kink", about_thickness, "rad"),
-    )
+            "each of kinks must be its place [m] and two angles [rad], as (5.0, 0.0, 0.3), got "
+            f"{shown(kink)}"
+        )
+    x, *angles = kink
+    about_chord, about_thickness = (checked_angle("angle of a kink", one, _STEEP) for one in angles)
+    return positive("place of a kink", x, "m"), about_chord, about_thickness
+
+
+def _checked_twist(twist: Any) -> Profile:
+    """Return a profile of angles [rad], asking about values, or a slope, that seem degrees."""
+    profile = checked_profile("twist", twist, "rad")
+    at = stations(profile) or [1.0]
+    x = np.union1d(np.linspace(0.0, at[-1], 65), at)
+    values, slopes = evaluated(profile, x).tolist(), (at[-1] * slope_of(profile, x)).tolist()
+    largest = checked_angle("twist", max(values, key=abs))
+    steepest = max(slopes, key=abs)
+    if abs(steepest) > 2.0 * math.pi and abs(largest) <= math.pi:  # one question is enough
+        warn(
+            f"twist has a slope of {steepest:.4g} rad over the length, more than a turn: in "
+            f"degrees? {steepest:.4g} degrees are {math.radians(steepest):.4g} rad"
+        )
+    return profile
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,14 +107,36 @@ class Line(Described):
 
     def __post_init__(self) -> None:
         self._keep(
-            twist=checked_profile("twist", self.twist, "rad"),
+            twist=_checked_twist(self.twist),
             prebend=checked_profile("prebend", self.prebend, "1/m"),
             sweep=checked_profile("sweep", self.sweep, "1/m"),
-            precone=finite_number("precone", self.precone, "rad"),
+            precone=checked_angle("precone", self.precone, _STEEP),
             mass_offset=checked_offset("mass_offset", self.mass_offset),
             tension_offset=checked_offset("tension_offset", self.tension_offset),
             kinks=tuple(map(_checked_kink, self.kinks)),
         )
+
+    def require_along(self, length: float) -> None:
+        """Refuse a line that is not one of a blade of that length [m]."""
+        for name in ("twist", "prebend", "sweep"):
+            require_along(name, getattr(self, name), length)
+        for name in ("prebend", "sweep"):
+            profile = in_units(getattr(self, name), length, 1.0)
+            points = np.union1d(np.linspace(0.0, 1.0, 65), stations(profile))
+            turn = length * float(np.trapezoid(np.abs(evaluated(profile, points)), points))
+            if turn > 2.0 * math.pi:
+                raise ValueError(
+                    f"{name} turns the line by {turn:.4g} rad, more than once around: it is a "
+                    "curvature [1/m], 2 d/L² for a tip that is d off the straight line"
+                )
+        for x, *_ in self.kinks:
+            if not x < length:
+                raise ValueError(
+                    f"a kink at {x:g} m is not between clamp and tip, at {length:g} m: take its "
+                    "place from the clamp, not from the axis"
+                )
+        for name in ("mass_offset", "tension_offset"):
+            require_offset(name, getattr(self, name), length)
 
     def in_units(self, length: float) -> Line:
         """Return the same in units of length [m]."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from .arrays import FloatArray, Profile, evaluated, in_units, stations, times
 from .description import Described
-from .input_checks import checked_profile, positive, warn_if_giga
+from .input_checks import checked_profile, positive, require_along, warn_if_giga
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,13 +142,9 @@ class Section(Described):
     def require_along(self, length: float) -> None:
         """Refuse a section that vanishes on a blade of that length [m], or is given for another."""
         for name, profile in self.profiles().items():
-            at = stations(profile)
-            if at and (at[0] != 0.0 or not math.isclose(at[-1], length, rel_tol=1e-9)):
-                raise ValueError(
-                    f"the stations of {name} run from {at[0]:g} to {at[-1]:g} m: give them from "
-                    f"0 to the length, {length:g} m"
-                )
-            x = np.union1d(np.linspace(0.0, 1.0, 257), np.minimum(at, length) / length)
+            require_along(name, profile, length)
+            at = np.minimum(stations(profile), length)
+            x = np.union1d(np.linspace(0.0, 1.0, 257), at / length)
             _require_section(name, evaluated(in_units(profile, length, 1.0), x), x * length)
 
     def tapered(self, width: float, height: float) -> Section:

@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from .description import Described
-from .input_checks import not_negative, positive
+from .input_checks import not_negative, positive, shown
 from .section import OutOfPlane
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
@@ -129,6 +129,12 @@ class SectionShape(Described, ABC, abstract=True):
     def _given(self) -> dict[str, float]:
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         return {k: x for k, x in values.items() if x is not None and k not in _NO_LENGTHS}
+
+
+def require_shape(shape: object) -> None:
+    """Refuse what is no shape of a section."""
+    if not isinstance(shape, SectionShape):
+        raise TypeError(f"a SectionShape is needed, got {shown(shape)}: as Rectangle()")
 
 
 @dataclass(frozen=True, kw_only=True)

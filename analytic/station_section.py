@@ -8,21 +8,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar, Never
+from typing import Any, ClassVar, Literal, Never, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, Profile
-from .input_checks import finite_array
+from .input_checks import finite_array, finite_values, require_ascending, require_offset, shown
 from .section import OutOfPlane, Section
 
 _EVEN = 1e-6  # of a matrix whose entries a table rounds
 _POSITIVE = 1e-12  # least stiffness, over that of the axes alone
 
 STIFFNESSES = ("EA", "GA2", "GA3", "GJ", "EI2", "EI3")
+MASSES = ("m", "j1", "j2", "j3")
 
 Matrix = tuple[tuple[float, ...], ...]
+Interpolation = Literal["components", "matrix"]
 
 
 def hat(vector: FloatArray) -> FloatArray:
@@ -33,7 +35,7 @@ def hat(vector: FloatArray) -> FloatArray:
     return result
 
 
-def moved(matrices: FloatArray, offset: ArrayLike) -> FloatArray:
+def moved(matrices: FloatArray, offset: FloatArray) -> FloatArray:
     """Return matrices (stations, 6, 6) for the line, from which their own axis has an offset.
 
     The axis has the strain Γ - a × κ and the velocity v - a × ω, a = (0, c2, c3), of a rigid
@@ -46,33 +48,86 @@ def moved(matrices: FloatArray, offset: ArrayLike) -> FloatArray:
     return np.asarray(np.swapaxes(onto, 1, 2) @ matrices @ onto)
 
 
-def _columns(name: str, values: ArrayLike, names: tuple[str, ...]) -> FloatArray:
-    found = finite_array(name, values)
-    if found.shape[1:] != (len(names),):
+def _offsets(name: str, values: ArrayLike, x: FloatArray) -> FloatArray:
+    """Return (c2, c3) [m] at each of the stations `x`, (stations, 2); zeros of the number 0."""
+    pairs = finite_array(name, values, "m")
+    if pairs.ndim == 0 and pairs == 0.0:
+        return np.zeros((x.size, 2))
+    if pairs.shape != (x.size, 2):
         raise ValueError(
-            f"{name} must have the columns {', '.join(names)}, or be 6x6 matrices, at each "
-            f"station, got {found.shape}"
+            f"{name} must be a pair (c2, c3) [m] at each of the {x.size} stations, got the shape "
+            f"{pairs.shape}: if it is the same at all, give [[c2, c3]] * {x.size}"
+        )
+    require_offset(name, pairs, x[-1])
+    return pairs
+
+
+def _table(name: str, values: ArrayLike, columns: tuple[str, ...], x: FloatArray) -> FloatArray:
+    """Return columns (stations, columns) or matrices (stations, 6, 6)."""
+    found = finite_array(name, values, None)
+    if found.shape not in ((x.size, len(columns)), (x.size, 6, 6)):
+        raise ValueError(
+            f"{name} must have the columns {', '.join(columns)}, or be 6x6 matrices, at each of "
+            f"the {x.size} stations, got {found.shape}"
         )
     return found
 
 
-def stiffness_of(values: ArrayLike, tension: ArrayLike, shear: ArrayLike) -> FloatArray:
+def _stiffness_of(columns: FloatArray, tension: FloatArray, shear: FloatArray) -> FloatArray:
     """Return the matrices of EA, GA2, GA3, GJ, EI2, EI3 about centers of tension and of shear."""
-    columns = _columns("stiffness", values, STIFFNESSES)
     axial, across = (columns * mask for mask in ([1, 0, 0, 0, 1, 1], [0, 1, 1, 1, 0, 0]))
     parts = ((axial, tension), (across, shear))
     return np.asarray(sum(moved(part[:, :, None] * np.eye(6), at) for part, at in parts))
 
 
-def mass_of(values: ArrayLike, center: ArrayLike) -> FloatArray:
+def _mass_of(columns: FloatArray, center: FloatArray) -> FloatArray:
     """Return the matrices of m, j1, j2, j3 about centers of mass."""
-    columns = _columns("mass", values, ("m", "j1", "j2", "j3"))
     return moved(columns[:, [0, 0, 0, 1, 2, 3], None] * np.eye(6), center)
+
+
+def _to_centers(matrices: FloatArray) -> FloatArray:
+    """Return T (stations, 6, 6), by which strains, or velocities, are those at the centers.
+
+    ε at the center of tension, where it does not couple with bending, and shear at the center of
+    shear, where it does not couple with torsion; of a mass both are at its center.
+    """
+    onto = np.tile(np.eye(6), (len(matrices), 1, 1))
+    onto[:, 0, 4:] = matrices[:, 0, 4:] / matrices[:, :1, 0]
+    onto[:, 1:3, 3:4] = np.linalg.solve(matrices[:, 1:3, 1:3], matrices[:, 1:3, 3:4])
+    return onto
+
+
+def section_of_table(
+    x: ArrayLike,
+    stiffness: ArrayLike,
+    mass: ArrayLike,
+    interpolation: Interpolation,
+    **centers: ArrayLike,
+) -> StationSection:
+    """Return the section of a table of `Blade.from_stations`, about the blade's line."""
+    at = finite_values("x", x, "m")
+    require_ascending("x", at.tolist(), "m")
+    places = {name: _offsets(name, values, at) for name, values in centers.items()}
+    S, M = _table("stiffness", stiffness, STIFFNESSES, at), _table("mass", mass, MASSES, at)
+    for name, table in (("tension", S), ("shear", S), ("center", M)):
+        if table.ndim == 3 and places[name].any():
+            raise ValueError(
+                f"{name} is a center of columns, and 6x6 matrices have theirs in them: leave it "
+                "out, or give axis, which moves matrices"
+            )
+    if S.ndim == 2:
+        S = _stiffness_of(S, places["tension"], places["shear"])
+    if M.ndim == 2:
+        M = _mass_of(M, places["center"])
+    S, M = (moved(matrices, places["axis"]) for matrices in (S, M))
+    return StationSection(
+        x=tuple(at.tolist()), stiffness=nested(S), mass=nested(M), interpolation=interpolation
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
 class StationSection(Section):
-    """Section by 6x6 matrices at stations, linear in between; made by `Blade.from_stations`.
+    """Section by 6x6 matrices at stations; made by `Blade.from_stations`.
 
     Parameters
     ----------
@@ -80,6 +135,9 @@ class StationSection(Section):
         Stations from the clamp to the tip [m].
     stiffness, mass : tuple
         6x6 matrices at these, about the blade's line in axes of the section; SI units.
+    interpolation : {"components", "matrix"}
+        Between stations the places of the centers and the matrices about these are linear, or the
+        matrices about the line.
 
     Raises
     ------
@@ -90,6 +148,7 @@ class StationSection(Section):
     x: tuple[float, ...]
     stiffness: tuple[Matrix, ...] = field(repr=False)
     mass: tuple[Matrix, ...] = field(repr=False)
+    interpolation: Interpolation = "components"
     axial_stiffness: Profile = field(init=False, repr=False)
     bending_stiffness: Profile = field(init=False, repr=False)
     mass_per_length: Profile = field(init=False, repr=False)
@@ -104,6 +163,10 @@ class StationSection(Section):
         return True
 
     def __post_init__(self) -> None:
+        if self.interpolation not in get_args(Interpolation):
+            raise ValueError(
+                f'interpolation must be "components" or "matrix", got {shown(self.interpolation)}'
+            )
         x = finite_array("x", self.x, "m").ravel()
         S, M = (_matrices(name, x, getattr(self, name)) for name in ("stiffness", "mass"))
         for at, one in zip(x, S, strict=True):
@@ -124,14 +187,23 @@ class StationSection(Section):
         """Stiffness and mass, (2, stations, 6, 6)."""
         return np.array((self.stiffness, self.mass))
 
+    @cached_property
+    def _about_centers(self) -> FloatArray:
+        """T and T⁻ᵀ S T⁻¹ of stiffness and mass, which are linear, (2, 2, stations, 6, 6)."""
+        if self.interpolation == "matrix":
+            return np.stack((np.broadcast_to(np.eye(6), self._arrays.shape), self._arrays))
+        onto = np.stack([_to_centers(kind) for kind in self._arrays])
+        back = 2.0 * np.eye(6) - onto
+        return np.stack((onto, np.swapaxes(back, -1, -2) @ self._arrays @ back))
+
     def matrices(self, x: FloatArray) -> FloatArray:
         """Return stiffness and mass at `x` between stations, in their unit, (2, places, 6, 6)."""
         at = np.array(self.x)
         first = np.minimum(np.searchsorted(at, x, side="right"), at.size - 1) - 1
         share = ((x - at[first]) / np.diff(at)[first])[:, None, None]
-        return np.asarray(
-            (1.0 - share) * self._arrays[:, first] + share * self._arrays[:, first + 1]
-        )
+        ends = self._about_centers
+        onto, about = (1.0 - share) * ends[:, :, first] + share * ends[:, :, first + 1]
+        return np.asarray(np.swapaxes(onto, -1, -2) @ about @ onto)
 
     def couples(self, one: tuple[int, ...], other: tuple[int, ...]) -> bool:
         """Whether an entry of any matrix couples two sets of axes."""
@@ -139,14 +211,17 @@ class StationSection(Section):
 
     @property
     def has_kinks_in_mass(self) -> bool:
-        """Whether the slope of any entry of the mass changes at a station."""
-        slopes = np.diff(self._arrays[1], axis=0) / np.diff(self.x)[:, None, None]
-        return bool(np.any(np.ptp(slopes, axis=0) > 1e-9 * np.abs(slopes).max(axis=0)))
+        """Whether the slope of the center of mass, or of the mass about it, changes anywhere."""
+        ends = self._about_centers[:, 1]
+        size = np.sqrt(np.abs(np.einsum("sii->si", self._arrays[1])).max(axis=0))
+        scale = np.stack((np.abs(ends[0]).max(axis=0), np.outer(size, size)))
+        slopes = np.diff(ends, axis=1) / np.diff(self.x)[:, None, None]
+        return bool(np.any(np.ptp(slopes, axis=1) > 1e-9 * scale / self.x[-1]))
 
-    def diagonal(self, kind: int) -> list[tuple[tuple[float, float], ...]]:
-        """Return the six entries on the diagonal of the stiffness, 0, or of the mass, 1."""
-        values = np.diagonal(self._arrays[kind], axis1=1, axis2=2).T.tolist()
-        return [tuple(zip(self.x, one, strict=True)) for one in values]
+    @property
+    def inertia_against_torsion(self) -> Profile:
+        """Inertia about the line at the stations [kg m]."""
+        return tuple((x, one[3][3]) for x, one in zip(self.x, self.mass, strict=True))
 
     def in_units(self, length: float, mass: float, time: float) -> StationSection:
         """Return the section in units of length [m], mass [kg] and time [s]."""
@@ -158,6 +233,7 @@ class StationSection(Section):
             x=tuple(x / length for x in self.x),
             stiffness=nested(stiffness / force),
             mass=nested(inertia * length / mass),
+            interpolation=self.interpolation,
         )
 
     def tapered(self, width: float, height: float) -> Never:

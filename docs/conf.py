@@ -117,7 +117,7 @@ html_copy_source = False
 html_sidebars = dict.fromkeys(
     (
         *("index", "start", "findings", "explorer", "validation", "codes"),
-        *("scope", "conventions", "gotchas", "faq", "bibliography"),
+        *("scope", "conventions", "gotchas", "faq", "bibliography", "licenses"),
     ),
     (),
 )

@@ -127,6 +127,7 @@ def dataset(commit: str) -> xr.Dataset:
         {
             "title": "Reference data of the rotating beam benchmark",
             "benchmark": VERSION,
+            "license": "CC-BY-4.0, https://creativecommons.org/licenses/by/4.0/",
             "method": "the exact beam by Radau collocation of order 15 and by harmonic balance",
             "commit": commit,
             "frequency_bound": max(errors),

@@ -130,7 +130,7 @@ def _schema_of(told: Any) -> dict[str, Any]:
             "additionalProperties": False,
         }
     if get_origin(told) is Literal:
-        return {"const": get_args(told)[0]}
+        return {"enum": list(get_args(told))}
     if not isinstance(told, tuple) and told in _TYPES:
         return {"type": _TYPES[told]}
     parts: Iterable[Any] = told if isinstance(told, tuple) else dict.fromkeys(get_args(told))

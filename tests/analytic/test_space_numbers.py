@@ -227,7 +227,7 @@ def test_the_spin_up_of_a_twisted_blade(tolerance, count, error, monkeypatch):
         (lambda: linear_modes(BEAM.with_precone(0.1), 1.0), "give its stiffness there by"),
         (lambda: linear_modes(BLADE.with_twist(0.5), 1.0, plane="flap"), "go together"),
         (lambda: BLADE.with_offsets(mass=0.1), "mass_offset must be a pair"),
-        (lambda: BLADE.with_twist(math.nan), "NaN"),
+        (lambda: BLADE.with_twist(math.nan), "twist must be finite"),
         (lambda: BLADE.with_precone("5 degrees"), "precone must be"),
     ],
 )

@@ -32,8 +32,10 @@ CENTERS = {"center": (0.05, 0.02), "tension": (0.03, -0.01)}
 SHEARED = Theory(shear=True, trapeze=False)
 
 
-def stations(**more):
-    return Blade.from_stations(X, STIFFNESS, MASS, twist=0.5 * X, **more)
+def stations(**offsets):
+    """The blade with the same offsets at all stations."""
+    everywhere = {name: [pair] * len(X) for name, pair in offsets.items()}
+    return Blade.from_stations(X, STIFFNESS, MASS, twist=0.5 * X, **everywhere)
 
 
 def turning(blade):
@@ -69,9 +71,10 @@ def test_the_axis_of_the_table_does_not_matter():
     there = stations(**away, shear=(-a, -b), axis=(a, b))
     assert frequencies(there, SHEARED) == pytest.approx(known, rel=1e-11)
     table = stations(**away, shear=(-a, -b)).section
-    moved = Blade.from_stations(X, table.stiffness, table.mass, twist=0.5 * X, axis=(a, b))
+    moved = Blade.from_stations(X, table.stiffness, table.mass, twist=0.5 * X, axis=[(a, b)] * 4)
     assert frequencies(moved, SHEARED) == pytest.approx(known, rel=1e-11)
-    assert np.array_equal(table.matrices(X), (table.stiffness, table.mass))  # at the tip too
+    at_stations = table.matrices(X)  # at the tip too
+    assert at_stations == pytest.approx(np.array((table.stiffness, table.mass)), rel=1e-13)
 
 
 def test_the_line_of_a_coupled_blade_does_not_matter():
@@ -82,7 +85,7 @@ def test_the_line_of_a_coupled_blade_does_not_matter():
     M = stations(**CENTERS).section.mass
     found, damped = [], []
     for c2 in (0.0, -0.04):
-        blade = Blade.from_stations(X, S, M, axis=(c2, 0.0)).with_setting_angle(0.3)
+        blade = Blade.from_stations(X, S, M, axis=[(c2, 0.0)] * 4).with_setting_angle(0.3)
         found.append(linear_modes(blade, 0.0, 5, theory=SHEARED).frequencies)
         viscous = blade.with_damping(Damping(bending=0.01, axial=0.002))
         damped.append(damping_ratios(viscous, 0.0, 5, theory=SHEARED))
@@ -93,7 +96,7 @@ def test_the_line_of_a_coupled_blade_does_not_matter():
 def test_damping_of_bending_is_about_the_center_of_tension():
     """Moments of η_b damp by η_b ω/2, wherever the line is; a ratio asked for is of bending."""
     for c2 in (0.0, 0.05):
-        blade = Blade.from_stations(X, STIFFNESS, MASS, tension=(c2, 0.0))
+        blade = Blade.from_stations(X, STIFFNESS, MASS, tension=[(c2, 0.0)] * 4)
         blade = blade.with_damping(Damping.from_ratio(blade, 1, 0.01))
         ratios, frequencies = damping_ratios(blade, 0.0, 4), linear_modes(blade, 0.0, 4).frequencies
         assert ratios == pytest.approx(0.5 * blade.damping.bending * frequencies, rel=1e-5)
@@ -102,7 +105,7 @@ def test_damping_of_bending_is_about_the_center_of_tension():
 
 def test_shear_centers_off_the_line_twist_a_blade_under_a_dead_force():
     """GJ κ1 = -F c2: a force on the line bends straight and twists by its lever to the centers."""
-    blade = Blade.from_stations(X, STIFFNESS, MASS, shear=(0.02, 0.0))
+    blade = Blade.from_stations(X, STIFFNESS, MASS, shear=[(0.02, 0.0)] * 4)
     state = steady_state(blade, 0.0, force=(0.0, 0.0, 1e-6), theory=SHEARED)
     steady = state._steady
     twist = steady.model.weights @ (steady.model.strains.K[0] @ steady.equilibrium)

@@ -51,9 +51,21 @@ def cited(page):
     return {key for keys in found for key in keys.split(",")}
 
 
-def test_each_citation_has_one_entry():
+def test_each_citation_has_one_entry_and_each_entry_its_source():
     bibliography = (ROOT / "docs" / "references.bib").read_text(encoding="utf-8")
-    entries = re.findall(r"^@\w+\{(\w+),", bibliography, re.MULTILINE)
-    assert len(entries) == len(set(entries))
-    missing = {page.name: cited(page) - set(entries) for page in (ROOT / "docs").rglob("*.md")}
-    assert {name: keys for name, keys in missing.items() if keys} == {}
+    entries = re.findall(r"^@\w+\{(\w+),\n(.*?)^\}$", bibliography, re.MULTILINE | re.DOTALL)
+    keys = {key for key, _ in entries}
+    assert len(entries) == len(keys)
+    pages = [page for page in (ROOT / "docs").rglob("*.md") if "_build" not in page.parts]
+    missing = {page.name: cited(page) - keys for page in pages}
+    assert {name: one for name, one in missing.items() if one} == {}
+    paper = (ROOT / "paper" / "paper.md").read_text(encoding="utf-8")
+    in_paper = set(re.findall(r"(?<=@)\w+", paper))
+    assert keys == in_paper.union(*map(cited, pages)) & keys
+    assert in_paper <= keys
+    for key, fields in entries:
+        assert re.search(r"^ +(doi|seen) = \{\S", fields, re.MULTILINE), key
+        # What is shown to a reader is known.
+        shown = re.sub(r"^ +seen = .*$", "", fields, flags=re.MULTILINE)
+        assert not re.search(r"from memory|not (seen|known)", shown), key
+        assert not re.search(r"doi = \{(?!10\.)", fields), key

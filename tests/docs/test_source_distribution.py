@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tarfile
 import tomllib
+import zipfile
 from fnmatch import fnmatch
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import pytest
 import rotbeam_exu
 
 ROOT = Path(__file__).parents[2]
+LICENSES = ROOT / "LICENSES"
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
 
@@ -33,7 +35,10 @@ def test_it_holds_every_file_that_is_named(source):
 
 @pytest.mark.slow
 def test_it_builds_and_runs_where_it_is_unpacked(tmp_path):
-    """The main job, by the Makefile in it, which makes an environment of its own."""
+    """The main job, by the Makefile in it, which makes an environment of its own.
+
+    It and the wheel have the texts of all licenses.
+    """
     env = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
 
     def run(*words, cwd=tmp_path):
@@ -45,11 +50,16 @@ def test_it_builds_and_runs_where_it_is_unpacked(tmp_path):
     run(sys.executable, "-m", "venv", "builder")
     python = tmp_path / "builder" / "bin" / "python"
     run(python, "-m", "pip", "install", "-q", *PROJECT["build-system"]["requires"])
-    run(python, "-m", "hatchling", "build", "-t", "sdist", "-d", tmp_path, cwd=ROOT)
-    (packed,) = tmp_path.glob("*.tar.gz")
+    run(python, "-m", "hatchling", "build", "-d", tmp_path, cwd=ROOT)
+    (packed,), (wheel,) = tmp_path.glob("*.tar.gz"), tmp_path.glob("*.whl")
     with tarfile.open(packed) as file:
         file.extractall(tmp_path, filter="data")
     unpacked = tmp_path / packed.name.removesuffix(".tar.gz")
+    texts = {"LICENSE", "NOTICE", *(f"LICENSES/{path.name}" for path in LICENSES.glob("*"))}
+    assert all((unpacked / name).is_file() for name in {*texts, "REUSE.toml"})
+    inside = zipfile.ZipFile(wheel).namelist()
+    assert {name.partition("/licenses/")[2] for name in inside if "/licenses/" in name} == texts
+    assert "rotbeam_exu/verification/data/references.nc.license" in inside
     run("make", "run", f"PYTHON={sys.executable}", cwd=unpacked)
     written = {path.suffix for path in (unpacked / "results").rglob("*")}
     assert {".nc", ".csv", ".png"} <= written

@@ -1,6 +1,7 @@
 """Numbers that stand on the pages in words, where no block computes them."""
 
 import math
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
@@ -200,3 +201,26 @@ def test_point_masses_have_no_external_damping(beam):
     assert damping_ratios(blade, 0.0, 1)[0] == pytest.approx(
         1e-3 * area / (2.0 * modes.frequencies[0] * inertia), rel=1e-7
     )
+
+
+def test_the_strip_buckles_laterally_where_the_page_says(beam):
+    """Lateral buckling of a cantilever at rest by a force at its tip, P L² = 4.0126 EI √(rg)."""
+    across = beam.with_shape(Rectangle()).section.out_of_plane
+    found = 4.0126 / 3.0 * math.sqrt(across.bending_ratio * across.torsion_ratio)
+    assert says("theory/planar.md", rf"$\tfrac13\,4.0126\sqrt{{rg}}\,L={found:.4f}\,L$")
+
+
+def test_the_birth_of_the_whirl_follows_from_its_printed_formula():
+    page = (DOCS / "theory/out_of_plane.md").read_text(encoding="utf-8")
+    (p,), (c,), (ratio,), (delta,), (born,) = (
+        map(float, re.findall(pattern, page))
+        for pattern in (
+            r"\$p=([\d.]+)\$ be the hardening",
+            r"\$c=([\d.]+)\$ that of",
+            r"With \$r=([\d.]+)\$, so",
+            r"0\.998}=([\d.]+)\$, this",
+            r"gives \$a_0\$ = ([\d.]+)\. ",
+        )
+    )
+    assert delta == pytest.approx(1.0 - math.sqrt(ratio), abs=5e-8)
+    assert born == pytest.approx(math.sqrt(delta / (c - 2.0 * p)), abs=5e-7)

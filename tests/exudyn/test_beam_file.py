@@ -100,8 +100,8 @@ BAD = [
     (GOOD.replace("density", "# "), "lacks density"),
     ("beam = 3", "write .beam. as a table"),
     ("", "has no table .beam."),
-    ("# Größe\n".encode("latin-1"), "not valid TOML: 'utf-8' codec"),
-    (GOOD.encode("utf-16"), "not valid TOML"),
+    ("# Größe\n".encode("latin-1"), "not written in UTF-8: byte 0xf6"),
+    (GOOD.encode("utf-16"), "not written in UTF-8: byte 0xff"),
     (b"\0\0\0", "not valid TOML"),
 ]
 # With motion, numerics and loads.
