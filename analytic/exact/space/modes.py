@@ -16,7 +16,7 @@ from ...methods.system import reciprocal_modes
 from ...settled import settled
 from ...theory import Theory
 from .continuum import SpaceContinuum
-from .steady import FUNCTIONS, LONGEST, SpaceBlade, finer_blades, space_continuum, space_rotation
+from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 _ONLY_TWISTS = 1e-6  # displacement of the tip over the length, times its turn
@@ -165,7 +165,7 @@ def space_modes_on(
     The steady state is sought from that of modes on the same discretization at a speed nearby.
     """
     steady = space_rotation(blade, omega, model)
-    if near is not None and abs(near.omega - omega) <= LONGEST * blade.frequency_scale:
+    if near is not None:
         steady = replace(steady, near=near._steady)
     found, shapes = _solved(steady, family)
     return _packed(blade, omega, steady, found[:count], shapes[:, :count], math.nan)
