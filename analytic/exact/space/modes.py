@@ -19,6 +19,7 @@ from .continuum import SpaceContinuum
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
+_ONLY_TURNS = 1e-6  # displacement of the tip over the length, times its turn
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
 """Directions of the tip, in the root frame, whose peak may be called the amplitude."""
 
@@ -97,7 +98,7 @@ class LinearModes:
 
         Displacements along the clamp's line, in the direction of rotation (lag) and normal to both
         (flap), and the turn about the clamp's line [rad]. The largest displacement of the tip is 1;
-        where the tip only turns, the turn is. Motion is the real part times exp(iΩt): the phase
+        where the tip only turns, to 1e-6 of its turn times the length, the turn is. Motion is the real part times exp(iΩt): the phase
         says which part is ahead.
         """
         length = self.beam.length
@@ -106,7 +107,8 @@ class LinearModes:
         parts = np.concatenate((length * moved, turn[None]))
         tip = parts[:3, -1]
         largest = np.take_along_axis(tip, np.argmax(np.abs(tip), axis=0)[None], axis=0)[0]
-        return np.asarray(parts[:, :-1] / np.where(largest == 0.0, parts[3, -1], largest))
+        only_turns = np.abs(largest) < _ONLY_TURNS * length * np.abs(parts[3, -1])
+        return np.asarray(parts[:, :-1] / np.where(only_turns, parts[3, -1], largest))
 
     def lowest(self, count: int, only: Family | None = None) -> LinearModes:
         """Return the lowest modes, of all or of one family."""
