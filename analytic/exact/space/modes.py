@@ -98,8 +98,8 @@ class LinearModes:
 
         Displacements along the clamp's line, in the direction of rotation (lag) and normal to both
         (flap), and the turn about the clamp's line [rad]. The largest displacement of the tip is 1;
-        where the tip only turns, to 1e-6 of its turn times the length, the turn is. Motion is the real part times exp(iΩt): the phase
-        says which part is ahead.
+        where the tip only turns, to 1e-6 of its turn times the length, the turn is. Motion is the
+        real part times exp(iΩt): the phase says which part is ahead.
         """
         length = self.beam.length
         at = np.append(points_of_beam("x", x, length), 1.0)
@@ -133,7 +133,7 @@ def space_modes(
 ) -> LinearModes:
     """Return the lowest modes, of all or of one family, on more functions until they settle."""
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
-    modes, _, error = settled(
+    _, modes, error = settled(
         lambda steady: _modes_of(blade, omega, steady).lowest(count, only),
         finer_blades(space_rotation(blade, omega, model)),
         model.functions.blade.tolerance,
