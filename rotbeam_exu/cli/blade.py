@@ -21,7 +21,7 @@ _COUNT = 6  # modes
 
 
 def blade(*, shear: Flag = False, config: Config = None) -> None:
-    """Print mass, stiffness and the first frequencies at rest.
+    """Print mass, stiffness and the first frequencies, at rest and at the file's speed.
 
     For a table of stations also by how much the frequencies change with the other interpolation of
     its sections: what is not known between stations is a convention.
@@ -36,12 +36,16 @@ def blade(*, shear: Flag = False, config: Config = None) -> None:
     $ rotbeam blade
     $ rotbeam blade --config blade.toml --shear
     """
-    beam = configured(config).beam.blade
+    file = configured(config, "motion.omega")
+    beam, omega = file.beam.blade, file.motion.get("omega", 0.0)
     theory = Theory(shear=True if shear else None)
     with bar("modes"):
         rest = analytic.linear_modes(beam, 0.0, _COUNT, theory=theory)
-        section = beam.section
-        others = {}
+        turning = {}
+        if omega:
+            modes = analytic.linear_modes(beam, omega, _COUNT, theory=theory)
+            turning[f"at {omega:g} rad/s [Hz]"] = modes.frequencies / (2.0 * np.pi)
+        section, others = beam.section, {}
         if isinstance(section, StationSection):
             (way,) = set(get_args(Interpolation)) - {section.interpolation}
             others[way] = _changes(beam, section, way, theory, rest.frequencies)
@@ -55,11 +59,12 @@ def blade(*, shear: Flag = False, config: Config = None) -> None:
     print_columns(
         {
             "mode": list(map(str, range(1, rest.frequencies.size + 1))),
-            "[Hz]": formatted(rest.frequencies / (2.0 * np.pi), ".6f"),
+            "at rest [Hz]": formatted(rest.frequencies / (2.0 * np.pi), ".6f"),
             "[rad/s]": formatted(rest.frequencies, ".6f"),
+            **{title: formatted(values, ".6f") for title, values in turning.items()},
             **{f'"{way}" [%]': formatted(changes, "+.4f") for way, changes in others.items()},
         },
-        title=f"Frequencies at rest, {'with' if shear else 'without'} shear",
+        title=f"Frequencies, {'with' if shear else 'without'} shear",
     )
     for way, changes in others.items():
         print_note(

@@ -55,6 +55,14 @@ def test_it_prints_the_table_and_what_its_interpolation_is_worth(call, file):
     assert max(abs(changed / known - 1.0)) > 1e-3
 
 
+def test_at_the_speed_of_the_file(call, file):
+    file.write_text(f"{TABLE}[motion]\nomega = 5.0\n")
+    _, out, _ = call("blade", "--config", file)
+    known = linear_modes(load_beam(file), 5.0, 6).frequencies[0] / (2.0 * np.pi)
+    assert "at 5 rad/s [Hz]" in " ".join(out.replace("┃", " ").split())
+    assert float(rows(out)["1"][2]) == pytest.approx(known, abs=1e-6)
+
+
 def test_of_a_blade_by_matrices_it_prints_the_change_to_components(call, file):
     file.write_text(f'{TABLE}interpolation = "matrix"\n')
     assert load_beam(file).section.interpolation == "matrix"
