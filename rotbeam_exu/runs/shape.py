@@ -122,7 +122,8 @@ def sides_of(blade: Blade, at: FloatArray, **sides: ArrayLike) -> FloatArray:
         if np.ndim(given) == 0 and side.any() and np.ptp(relative) > _ALIKE:
             raise ValueError(
                 f"the {name} of this blade varies along it, by its stiffness to "
-                f"{relative.min():.3g} of its largest: give {name} at each of the {at.size} stations, in an array"
+                f"{relative.min():.3g} of its largest: give {name} at each of the {at.size} "
+                "stations, in an array"
             )
         columns.append(side)
     return np.stack(columns, axis=-1)
