@@ -64,13 +64,13 @@ def _offsets(name: str, values: ArrayLike, x: FloatArray) -> FloatArray:
 
 def _table(name: str, values: ArrayLike, columns: tuple[str, ...], x: FloatArray) -> FloatArray:
     """Return columns (stations, columns) or matrices (stations, 6, 6)."""
-    found = finite_array(name, values, None)
-    if found.shape not in ((x.size, len(columns)), (x.size, 6, 6)):
+    table = finite_array(name, values, None)
+    if table.shape not in ((x.size, len(columns)), (x.size, 6, 6)):
         raise ValueError(
             f"{name} must have the columns {', '.join(columns)}, or be 6x6 matrices, at each of "
-            f"the {x.size} stations, got {found.shape}"
+            f"the {x.size} stations, got {table.shape}"
         )
-    return found
+    return table
 
 
 def _stiffness_of(columns: FloatArray, tension: FloatArray, shear: FloatArray) -> FloatArray:
@@ -106,6 +106,11 @@ def section_of_table(
 ) -> StationSection:
     """Return the section of a table of `Blade.from_stations`, about the blade's line."""
     at = finite_values("x", x, "m")
+    if at.size < 2 or at[0] != 0.0:
+        raise ValueError(
+            f"x must be two stations or more from 0 to the length, got {at.size} from {at[0]:g} to "
+            f"{at[-1]:g} m"
+        )
     require_ascending("x", at.tolist(), "m")
     places = {name: _offsets(name, values, at) for name, values in centers.items()}
     S, M = _table("stiffness", stiffness, STIFFNESSES, at), _table("mass", mass, MASSES, at)
