@@ -95,7 +95,10 @@ def finite_number(name: str, value: object, unit: str = "") -> float:
     value = bare(name, value, unit)
     if not _is_number(value):
         raise TypeError(f"{name} must be a number{_in(unit)}, got {shown(value)}")
-    number = float(value)  # type: ignore[arg-type]
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except OverflowError:  # a whole number of more than 308 digits
+        number = math.inf
     if not math.isfinite(number):
         raise ValueError(f"{name} must be finite, got {number}{_unit(unit)}")
     return number

@@ -1,25 +1,40 @@
 """Shapes of sections, which tell how a blade of their A and I bends and twists out of its plane.
 
-A new shape is a frozen dataclass that inherits from `SectionShape`.
+A new shape is a frozen dataclass that inherits from `SectionShape`, with fields whose types say
+what they are: `Length`, `Ratio` or `Count`.
 """
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
-from typing import ClassVar
+from functools import cache, partial
+from typing import Annotated, ClassVar, get_args, get_type_hints
 
 import numpy as np
 
 from .description import Described
-from .input_checks import not_negative, positive, shown
+from .input_checks import not_negative, positive, shown, whole_number
 from .section import OutOfPlane
+from .warning import warn
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
 _SAME = 0.01  # what rounded lengths may differ from A and I
-_NO_LENGTHS = ("poisson_ratio", "ratio")
+
+Length = Annotated[float, "length"]
+"""A field in m, above zero."""
+Ratio = Annotated[float, "ratio"]
+"""A field without a unit, zero or more."""
+Count = Annotated[int, "count"]
+"""A field that is a whole number, from 1 on."""
+
+_CHECKS: Mapping[str, Callable[[str, object], float]] = {
+    "length": partial(positive, unit="m"),
+    "ratio": not_negative,
+    "count": whole_number,
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,16 +57,25 @@ class SectionShape(Described, ABC, abstract=True):
     Raises
     ------
     ValueError
-        If a value is out of range; of a blade, if the shape has another I/A or A than it.
+        If a value is out of range, or there is no such shape; of a blade, if the shape has another
+        I/A or A than it.
+    TypeError
+        If a value is no number, or the class does not say of a field whether it is a `Length`, a
+        `Ratio` or a `Count`.
     """
 
-    poisson_ratio: float = 0.3
+    poisson_ratio: Ratio = 0.3
 
     def __post_init__(self) -> None:
-        self._keep(**{name: positive(name, value, "m") for name, value in self._given.items()})
-        self._keep(poisson_ratio=not_negative("poisson_ratio", self.poisson_ratio))
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value is not None or field.default is not None:
+                check = _CHECKS[_sorts(type(self))[field.name]]
+                self._keep(**{field.name: check(field.name, value)})
         if self.poisson_ratio > 0.5:
             raise ValueError(f"poisson_ratio must be at most 0.5, got {self.poisson_ratio:g}")
+        if not self._missing:
+            self._gyration(self._given)  # refuses lengths that no shape has
 
     @abstractmethod
     def _fitting(self, own: Gyration) -> dict[str, float]:
@@ -114,9 +138,8 @@ class SectionShape(Described, ABC, abstract=True):
             positive("youngs_modulus", youngs_modulus, "Pa"),
             positive("density", density, "kg/m^3"),
         )
-        names = [field.name for field in fields(self) if field.name not in _NO_LENGTHS]
-        if missing := [name for name in names if name not in self._given]:
-            raise ValueError(f"{self!r} along a blade needs {' and '.join(missing)} [m]")
+        if self._missing:
+            raise ValueError(f"{self!r} along a blade needs {' and '.join(self._missing)} [m]")
         own = self._gyration(self._given)
         A = own.area or math.nan
         inertia, G = own.squared * A, 0.5 * E / (1.0 + self.poisson_ratio)
@@ -126,9 +149,36 @@ class SectionShape(Described, ABC, abstract=True):
         return (*stiffness, E * inertia), (rho * A, j2 + j3, j2, j3)
 
     @property
+    def _lengths(self) -> dict[str, float | None]:
+        sorts = _sorts(type(self)).items()
+        return {name: getattr(self, name) for name, sort in sorts if sort == "length"}
+
+    @property
     def _given(self) -> dict[str, float]:
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {k: x for k, x in values.items() if x is not None and k not in _NO_LENGTHS}
+        return {name: length for name, length in self._lengths.items() if length is not None}
+
+    @property
+    def _missing(self) -> list[str]:
+        return [name for name, length in self._lengths.items() if length is None]
+
+
+@cache
+def _sorts(cls: type[SectionShape]) -> dict[str, str]:
+    """Return whether each field of a shape is a length, a ratio or a count."""
+    sorts = {}
+    hints = get_type_hints(cls, include_extras=True)
+    for field in fields(cls):
+        hint = hints[field.name]
+        told = [
+            one for part in (hint, *get_args(hint)) for one in getattr(part, "__metadata__", ())
+        ]
+        if not told or told[0] not in _CHECKS:
+            raise TypeError(
+                f"{cls.__name__} does not say what {field.name} is: let its type be Length, Ratio "
+                "or Count of analytic.section_shapes, each as | None where it may be left out"
+            )
+        sorts[field.name] = told[0]
+    return sorts
 
 
 def require_shape(shape: object) -> None:
@@ -141,9 +191,9 @@ def require_shape(shape: object) -> None:
 class _TwoSided(SectionShape, ABC, abstract=True):
     """A shape with a height in the plane of bending and a width, or the ratio of both."""
 
-    height: float | None = None
-    width: float | None = None
-    ratio: float | None = None
+    height: Length | None = None
+    width: Length | None = None
+    ratio: Ratio | None = None
 
     _deep: ClassVar[float]  # h² A/I
     _filled: ClassVar[float]  # A/(h b)
@@ -260,8 +310,18 @@ class Tube(SectionShape):
         ν, which tells the shear modulus.
     """
 
-    radius: float | None = None
-    wall: float | None = None
+    radius: Length | None = None
+    wall: Length | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        r, t = self.radius, self.wall
+        if r is not None and t is not None and t > r:
+            warn(
+                f"radius = {r:g} m is that of the middle of the wall, so that a wall of {t:g} m is "
+                f"between the radii {r - 0.5 * t:g} and {r + 0.5 * t:g} m: give the outer radius "
+                "less half the wall"
+            )
 
     def _fitting(self, own: Gyration) -> dict[str, float]:
         if own.area is None:
@@ -313,9 +373,9 @@ class Box(SectionShape):
     313 kg
     """
 
-    height: float | None = None
-    width: float | None = None
-    wall: float | None = None
+    height: Length | None = None
+    width: Length | None = None
+    wall: Length | None = None
 
     def _fitting(self, own: Gyration) -> dict[str, float]:
         return {}  # height and wall do not follow from I/A and A alone

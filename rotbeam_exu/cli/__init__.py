@@ -11,6 +11,8 @@ import os
 import re
 import signal
 import sys
+import textwrap
+import traceback
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -73,12 +75,24 @@ for _order, _command in enumerate(_COMMANDS):
 
 app.register_install_completion_command("--complete", help="Let the shell complete commands.")
 
+INTERNAL = 70
+"""Exit code of an error of the program itself, EX_SOFTWARE of sysexits.h."""
+
+_FORESEEN = (
+    cyclopts.CycloptsError, ImportError, MemoryError, OSError, OverflowError, RuntimeError,
+    TypeError, ValueError,
+)  # fmt: skip
+"""Errors with a sentence for the user, on input or on a run that fails."""
+
 _SPEED_UNITS = {"--rpm": math.pi / 30.0, "--hz": 2.0 * math.pi, "--rps": 2.0 * math.pi}
 """Options that do not exist, and their units in rad/s."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line; bad input is one sentence and exit code 2, a failed run is 1."""
+    """Run the command line; bad input is one sentence and exit code 2, a failed run is 1.
+
+    An error of the program itself is INTERNAL.
+    """
     arguments = sys.argv[1:] if arguments is None else list(map(str, arguments))
     write_utf8()
     with warnings.catch_warnings(), _ctrl_c_noted() as met:
@@ -93,10 +107,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
             # Who reads has read enough, as `head` does; the exit must not flush into it again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(1)
-        except (
-            cyclopts.CycloptsError, ImportError, KeyboardInterrupt, MemoryError, OSError,
-            OverflowError, RuntimeError, TypeError, ValueError,
-        ) as error:  # fmt: skip
+        except (Exception, KeyboardInterrupt) as error:
             told = isinstance(error, KeyboardInterrupt) or not met
             text, code = _ending(error if told else KeyboardInterrupt())
             print_message("rotbeam:", "red", text)
@@ -133,7 +144,17 @@ def _ending(error: BaseException) -> tuple[str, int]:
         return f"{error} {command} --help explains it", 2
     if isinstance(error, OSError) and error.filename:
         return f"{error.filename}: {error.strerror}", 2
-    return str(error), 1 if isinstance(error, RuntimeError) else 2
+    if isinstance(error, _FORESEEN):
+        return str(error), 1 if isinstance(error, RuntimeError) else 2
+    return _internal(error.__cause__ or error), INTERNAL
+
+
+def _internal(error: BaseException) -> str:
+    """Return the sentence on an error that is no user's: what, and the last places in the code."""
+    places = traceback.extract_tb(error.__traceback__)[-3:]
+    said = textwrap.shorten(f"{type(error).__name__}: {error}", 200)
+    trace = ", ".join(f"{Path(one.filename).name}:{one.lineno}" for one in places)
+    return f"internal error, not of your input: {said} ({trace}); please report it with the command"
 
 
 def _unknown_option(error: cyclopts.UnknownOptionError) -> str:

@@ -72,7 +72,7 @@ def animate(
     whole_number("rate", rate)
     kept = None if run is None else load(run)
     if kept is None:
-        file = configured(config)
+        file = configured(config, "motion", "numerics.duration")
         beam = file.beam
         spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
         speed, ramp = spin_up.omega, spin_up.ramp_time
@@ -100,7 +100,7 @@ def animate(
     from ..datasets import dataset_of
     from ..figures import animation
 
-    corners(height, width)
+    corners(beam, np.linspace(0.0, beam.length, 41), height, width)
     if target.suffix != ".pvd":
         animation.check_format(target)
     require_writable(target, force=force)

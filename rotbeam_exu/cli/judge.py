@@ -19,13 +19,13 @@ from ..verification.kit import write_kit
 from ..verification.mistakes import mistakes_in
 from ..verification.mistakes.histories import Mistake
 from ..verification.outcomes import Finding, Outcome
-from ..verification.submission import Run
+from ..verification.submission import Run, Submission
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable, write_text
 from .motion import configured, element_of, motion_of
 from .options import Config
-from .output import bar, counter, print_columns, print_note, print_text, print_written
+from .output import bar, counter, formatted, print_columns, print_note, print_text, print_written
 
 _SHORT = {
     "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
@@ -62,7 +62,8 @@ def judge(
     """Judge the result files of any code by their limits.
 
     Exit code 0: all that was handed in is decided and right; 1: something differs; 2: files are
-    malformed, all their faults are printed, and the others are judged; 3: something is undecided.
+    malformed, all their faults are printed, and the others are judged; 3: something is undecided;
+    70: the judge itself fails.
 
     Parameters
     ----------
@@ -98,6 +99,23 @@ def judge(
         if error.rest is None:
             sys.exit(2)
         submission = error.rest
+    try:
+        passed = _judge(folder, submission, faults, only, report, json)
+    except (ArithmeticError, RuntimeError, TypeError, ValueError) as error:
+        # The files were checked: what is raised now is no fault of theirs, nor a difference.
+        raise JudgeError from error
+    sys.exit(2 if faults else {True: 0, False: 1, None: 3}[passed])
+
+
+class JudgeError(Exception):
+    """An error of the judge itself, for whatever reason."""
+
+
+def _judge(
+    folder: Path, submission: Submission, faults: Sequence[Fault], only: Sequence[str],
+    report: Path | None, json: Path | None,
+) -> bool | None:  # fmt: skip
+    """Judge, print and write; return whether all is right, None where something is undecided."""
     with bar("judging") as drawn:
         found = judged(
             submission, only=only, progress=lambda name, n, of: drawn(n, of, f"judging {name}")
@@ -111,7 +129,7 @@ def judge(
         print_note(f"reference: {source}")
     record = Record(
         submission=submission, judgement=found, mistakes=tuple(mistakes),
-        digests=digests(folder, submission), faults=faults,
+        digests=digests(folder, submission), faults=tuple(faults),
     )  # fmt: skip
     if report is not None:
         write_text(report_page(record), report)
@@ -119,7 +137,7 @@ def judge(
     if json is not None:
         write_text(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
         print_written([json])
-    sys.exit(2 if faults else {True: 0, False: 1, None: 3}[found.passed])
+    return found.passed
 
 
 def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
@@ -154,7 +172,7 @@ def verify(*, element: list[str] | None = None, config: Config = None) -> None:
     from ..verification.verify import verify as verification_of
 
     own = [formulation_entry(element_of(name)) for name in element or ()]
-    file = configured(config)
+    file = configured(config, "motion", "numerics.duration", "numerics.step")
     motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
     entries = own or entries_at_hand()
     if config:
@@ -205,9 +223,9 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             "h": [_finest(one, lambda run: run.step_in_words) for one in found],
             "order l": [_order(one, "mesh") for one in found],
             "order h": [_order(one, "step") for one in found],
-            "s": [_finest(one, lambda run: f"{run.wall:.1f}") for one in found],
-            "outcome": [one.outcome for one in found],
-        },
+        }
+        | _times(found)
+        | {"outcome": [one.outcome for one in found]},
         title="Orders of q(t), observed of declared, and the finest run of the first history",
     )
     for one in found:
@@ -239,6 +257,16 @@ def _largest(values: Iterable[float]) -> str:
 def _finest(one: Judgement, cell: Callable[[Run], str]) -> str:
     """Return what there is to say of the finest run of the first history."""
     return cell(next(iter(one.histories.values())).finest) if one.histories else "-"
+
+
+def _times(found: Sequence[Judgement]) -> dict[str, list[str]]:
+    """Return the column of times on the clock, or else of the processor; none if none is known."""
+    runs = [next(iter(one.histories.values())).finest if one.histories else None for one in found]
+    for name in ("wall", "cpu"):
+        times = [getattr(run, name, math.nan) for run in runs]
+        if not all(map(math.isnan, times)):
+            return {{"wall": "s", "cpu": "CPU s"}[name]: formatted(times, ".1f")}
+    return {}
 
 
 def _order(one: Judgement, name: str) -> str:

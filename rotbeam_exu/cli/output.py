@@ -7,7 +7,6 @@ import io
 import math
 import sys
 import time
-import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,6 +17,8 @@ from rich.progress import MofNCompleteColumn, Progress, ProgressColumn, TimeElap
 from rich.table import Table
 from rich.text import Text
 
+from analytic.letters import is_unseen
+
 Format = Literal["table", "csv"]
 
 _DIGITS = 7
@@ -25,9 +26,6 @@ _DIGITS = 7
 
 _LINES = 50
 """Lines of progress printed about at most; a sweep of the paper's 24 cases prints each."""
-
-_CONTROL = {"Cc", "Cf", "Cs", "Zl", "Zp"}
-"""Categories of letters that steer a terminal, or the direction in which it writes."""
 
 
 class _Console(Console):
@@ -43,11 +41,9 @@ def new_console(*, stderr: bool = False) -> Console:
 
 
 def harmless(text: str) -> str:
-    """Return a text, its control letters spelled as in Python: a terminal would obey them."""
+    """Return a text, its unseen letters spelled as in Python: a terminal would obey them."""
     return "".join(
-        repr(letter)[1:-1]
-        if unicodedata.category(letter) in _CONTROL and letter not in "\n\t"
-        else letter
+        ascii(letter)[1:-1] if is_unseen(letter) and letter not in "\n\t" else letter
         for letter in text
     )
 

@@ -59,7 +59,7 @@ def stability(
     """
     whole_number("mode", mode)
     not_negative("damping-ratio", damping_ratio)
-    file = configured(config)
+    file = configured(config, "motion.omega")
     omega = omega_of(file, omega)
     blade = shape.of(file.beam)
     if blade.section.out_of_plane is None:

@@ -62,7 +62,7 @@ def sweep(
     """
     from ..sweeps.grid import sweep as run_sweep
 
-    file = configured(config, takes_loads=True)
+    file = configured(config, "motion", "numerics", "loads")
     beam = driving.dampings.on(file.beam)
     numerics = discretization.over(file.numerics)
     omegas, ramp_times = omega, ramp_time
@@ -159,7 +159,7 @@ def converge(
     """
     from .. import comparison
 
-    file = configured(config, takes_loads=True)
+    file = configured(config, "motion", "numerics", "loads")
     numerics = discretization.over(file.numerics)
     case = driving.spin_up_case(file, numerics, omega, ramp_time)
     whole_number("elements", case.elements, least=2)

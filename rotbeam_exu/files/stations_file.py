@@ -63,7 +63,7 @@ def blade_of_csv(path: Path) -> Blade:
     known = {"GA2": EA, "GA3": EA, "twist": zero}
     known |= {f"j{axis}": columns["m"] * columns[f"EI{axis}"] / EA for axis in (2, 3)} | columns
     known = {"j1": known["j2"] + known["j3"]} | known
-    pairs = {
+    pairs: dict[str, Any] = {
         name: np.stack([known.get(f"{name}{axis}", zero) for axis in (2, 3)], axis=-1)
         for name in _CENTERS
     }

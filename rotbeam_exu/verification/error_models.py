@@ -49,6 +49,7 @@ _MOST_FREEDOM = 2
 """Degrees of freedom by which the scale of errors is known: runs of one code are not independent,
 and with more of them bars of oscillating ones cover less than nine tenths."""
 
+_FARTHEST = 230.0  # of the logarithms of errors
 _ROUND_OFF = 1e-13
 _LIKELY = 1e-3  # of the likeliest: what is less has no part in a bar
 _PROBABILITIES = (np.arange(60) + 0.5) / 60.0
@@ -107,12 +108,17 @@ def _parts(
     x: FloatArray, y: FloatArray, p: FloatArray, r: FloatArray, ratio: FloatArray,
     in_mesh: FloatArray, in_step: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
-    mesh, step = x ** p[:, None], ratio[:, None] * y ** r[:, None]
+    mesh, step = _power(x, p), ratio[:, None] * _power(y, r)
     k, m = (one[:, None, None] ** 2 for one in (in_mesh, in_step))
     return (
         mesh[:, :, None] * mesh[:, None, :] * (1.0 + k * (x[:, None] == x)),
         step[:, :, None] * step[:, None, :] * (1.0 + m * (y[:, None] == y)),
     )
+
+
+def _power(x: FloatArray, p: FloatArray) -> FloatArray:
+    """Return xᵖ, (models, runs), with orders so small that its squares are numbers."""
+    return np.asarray(x ** np.minimum(p, _FARTHEST / math.log(max(x.max(), 2.0)))[:, None])
 
 
 def _modeled(

@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 from analytic.arrays import FloatArray
+from analytic.input_checks import finite_number
+from analytic.letters import plain_text
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from .cases import Case
+
+TEXTS = "benchmark", "code", "version", "url", "licence", "element", "machine", "remarks"
+ORDERS = "order", "order_in_step"
+LEAST_ORDER, MOST_ORDER = 0.1, 20.0
+LONGEST_NAME, LONGEST_REMARKS = 200, 2000
+"""Letters of a text that an author declares, and of the remarks."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +51,32 @@ class Declaration:
     order: float | None = None
     order_in_step: float | None = None
     benchmark: str = ""
+
+    def __post_init__(self) -> None:
+        """Check the texts and the orders."""
+        for key in (*TEXTS, "authors"):
+            object.__setattr__(self, key, declared(key, getattr(self, key)))
+        for key in ORDERS:
+            if getattr(self, key) is not None:
+                object.__setattr__(self, key, declared(key, getattr(self, key)))
+
+
+def declared(key: str, value: object) -> Any:
+    """Return a text, an order or the authors; TypeError or ValueError with the sentence."""
+    if key in ORDERS:
+        order = finite_number(key, value)
+        if not LEAST_ORDER <= order <= MOST_ORDER:
+            bounds = f"from {LEAST_ORDER:g} to {MOST_ORDER:g}"
+            raise ValueError(f"{key} must be {bounds}, got {order:g}: leave out what is not known")
+        return order
+    if key == "remarks" and isinstance(value, str):  # of several lines
+        plain_text(key, value.replace("\n", " ").replace("\t", " "), LONGEST_REMARKS)
+        return value
+    if key in TEXTS:
+        return plain_text(key, value, LONGEST_NAME)
+    if not isinstance(value, list | tuple) or len(value) > LONGEST_NAME:
+        raise ValueError(f'{key} must be a short list of texts, as {key} = ["...", "..."]')
+    return tuple(plain_text(f"each of the {key}", one, LONGEST_NAME) for one in value)
 
 
 @dataclass(frozen=True, kw_only=True)

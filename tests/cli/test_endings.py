@@ -13,6 +13,7 @@ from matplotlib.animation import PillowWriter
 
 from analytic.input_checks import RotbeamWarning
 from rotbeam_exu import save
+from rotbeam_exu.cli import INTERNAL
 from rotbeam_exu.cli import backbone as job
 from rotbeam_exu.cli.output import write_utf8
 from rotbeam_exu.files.results import whole_file, writable_folder
@@ -87,6 +88,21 @@ def test_warnings_and_the_reason_of_a_failure_are_a_line_each(call, monkeypatch,
         found, _, error = call(*BACKBONE)
         assert found == code
         assert error.splitlines() == ["warning: 1 is small", "warning: 2 is small", "rotbeam: no"]
+
+
+@pytest.mark.parametrize("error", [IndexError("7"), KeyError("x"), AssertionError(), EOFError()])
+def test_an_error_of_the_program_has_an_exit_code_of_its_own(call, monkeypatch, error):
+    """It was a traceback, and the code of a run that fails."""
+
+    def failing(*_, **__):
+        raise error
+
+    monkeypatch.setattr(job, "_print_coefficients", failing)
+    code, _, said = call(*BACKBONE)
+    assert code == INTERNAL == 70
+    assert said.startswith(f"rotbeam: internal error, not of your input: {type(error).__name__}")
+    assert len(said.splitlines()) == 1
+    assert "test_endings.py:" in said
 
 
 def test_paths_are_no_markup(call, tmp_path):

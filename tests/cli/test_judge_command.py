@@ -87,7 +87,10 @@ def steers(text):
 
 
 def test_a_terminal_obeys_no_author(call, folder, tmp_path):
-    """Neither by the names in entry.toml, nor by remarks and failures of runs, nor by files."""
+    """Neither by the names in entry.toml, nor by remarks and failures of runs, nor by files.
+
+    Each is refused by a sentence that shows the letters, and nothing is judged under such a name.
+    """
     entry = (
         (folder / "entry.toml").read_text("utf-8").replace('"mine"', json.dumps(f"mine{HOSTILE}"))
     )
@@ -98,9 +101,20 @@ def test_a_terminal_obeys_no_author(call, folder, tmp_path):
     (folder / "runs.csv").write_text("\n".join(rows), "utf-8")
     (folder / "L.csv").write_text(f"elements,speed,frequency\n8,{HOSTILE},1\n", "utf-8")
     code, out, err = call("judge", folder)
-    assert code == 2
-    assert r"mine\x1b]0;owned\x07\x1b[31m\x9b2J\u202eedoc" in out
-    assert set(steers(out + err)) == {"\n"}
+    assert (code, out) == (2, "")
+    assert set(steers(err)) == {"\n"}
+    assert [
+        line.partition(" has a letter that no reader sees, ")[::2]
+        for line in err.splitlines()
+        if "no reader" in line
+    ] == [
+        ("entry.toml: code", r"'\x1b' in 'mine\x1b]0;owned\x07\x1b[31m': leave it out"),
+        (
+            "runs.csv:2: remark",
+            r"'\x1b' in 'went on\x1b]0;owned\x07\x1b[31m': leave it out (and so in 4 more)",
+        ),
+        ("runs.csv:7: failure", r"'\x1b' in '\x1b]0;owned\x07\x1b[31m': leave it out"),
+    ]
     path = tmp_path / f"{HOSTILE}.toml"
     path.write_text(f"{HOSTILE} = 1", "utf-8")
     assert set(steers(call("run", "--config", path)[2])) == {"\n"}

@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 # From the ground up: a room imports from rooms below it only, and from itself.
 FLOORS = {
     "analytic": [
-        {"arrays", "description", "lazily", "threads", "warning"},
+        {"arrays", "description", "lazily", "letters", "threads", "warning"},
         {"input_checks", "quadrature", "settled", "methods", "plotting"},
         {"motion", "theory"},
         {"parts", "section", "unit_blade", "loads", "ramps"},

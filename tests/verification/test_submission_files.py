@@ -18,7 +18,7 @@ from rotbeam_exu.verification.submission_files.faults import MalformedSubmission
 
 DECLARATION = Declaration(
     code="Balken", version="2.1", url="https://example.org", licence="MIT", element="B22",
-    machine="one core", remarks='of "two\nlines", and a tail\x7f', authors=("A. Å.", "B"),
+    machine="one core", remarks='of "two\nlines", and\ta tail', authors=("A. Å.", "B"),
     theory=Theory(rotary_inertia=True, shear=0.3205, engesser=True), inextensible=True,
     order=4.0, order_in_step=2.0, benchmark=VERSION,
 )  # fmt: skip
@@ -255,7 +255,11 @@ FAULTS = [
         lambda text: text.replace("Engesser", "Haringx"),
         "must be Reissner or Engesser",
     ),
-    ("entry.toml", lambda text: text.replace("order = 4.0", "order = -4"), "must be positive"),
+    (
+        "entry.toml",
+        lambda text: text.replace("order = 4.0", "order = -4"),
+        "must be from 0.1 to 20",
+    ),
     ("entry.toml", lambda text: text.replace("order = 4.0", "order = 'a'"), "must be a number"),
 ]
 

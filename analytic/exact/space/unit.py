@@ -182,19 +182,14 @@ class StationUnit(SpaceUnit):
         return 1e-7 if self.section.has_kinks_in_mass else 1e-9
 
     @property
-    def profiles(self) -> tuple[Profile, ...]:
-        """Profiles along the blade."""
-        return (*super().profiles, *self.section.diagonal(0))
-
-    @property
     def tail(self) -> float:
         """More where forces in the frame of a section, which bends by kinks, have kinks too."""
         return 20.0 if len(self.section.x) > 2 else 1.0
 
     def torques(self, count: int, x: FloatArray) -> FloatArray:
         """Return integrals of polynomials times the inertia against torsion, if there is one."""
-        inertia = self.section.diagonal(1)[3]
-        if min(value for _, value in inertia) <= 0.0:
+        inertia = self.section.inertia_against_torsion
+        if evaluated(inertia, x).min() <= 0.0:
             return super().torques(count, x)
         return shape_functions(replace(self, mass=inertia), count, "axial").forces(x)
 

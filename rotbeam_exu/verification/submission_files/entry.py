@@ -8,19 +8,18 @@ from dataclasses import replace
 from typing import Any
 
 from analytic import Theory
-from analytic.input_checks import positive
+from analytic.input_checks import finite_number, positive
 from analytic.theory import BERNOULLI_EULER
 
 from ..cases import VERSION
-from ..submission import Declaration
+from ..submission import ORDERS, TEXTS, Declaration, declared
 from .faults import Folder, near, shown
 
 FILE = "entry.toml"
 TAGS = ("shear", "rotary-inertia", "inextensible")
-_TEXTS = ("benchmark", "code", "version", "url", "licence", "element", "machine", "remarks")
-_ORDERS = ("order", "order_in_step")
-_KEYS = (*_TEXTS, "authors", *_ORDERS, "tags", "shear")
+_KEYS = (*TEXTS, "authors", *ORDERS, "tags", "shear")
 _LAWS = ("Reissner", "Engesser")
+_SHARES = 1e-3, 10.0
 _SHEAR_REMEDY = "[shear] takes k_s and nu, or share = k_s/(2 (1 + nu)), and perhaps a law"
 
 
@@ -56,20 +55,23 @@ def _stated(key: str, value: Any) -> Any:
     """Return the declared value of a key; TypeError or ValueError with the sentence."""
     if key not in _KEYS:
         raise ValueError(f"unknown key {shown(key)}; {near(key, _KEYS)}")
-    if key in _ORDERS:
-        return positive(key, value)
     if key == "shear":
         return _sheared(value)
-    if key in _TEXTS:
-        if not isinstance(value, str):
-            raise ValueError(f"{key} must be text in quotes, got {shown(str(value))}")
-        if key == "benchmark" and value and value.split(".")[0] != VERSION.split(".")[0]:
-            known = f"this judge knows {VERSION}: see the kit"
-            raise ValueError(f"benchmark is {shown(value)}, {known}")
-        return value.strip()
+    if key == "tags":
+        return _tags(value)
+    value = value.strip() if isinstance(value, str) else value
+    if key == "benchmark" and value and str(value).split(".")[0] != VERSION.split(".")[0]:
+        raise ValueError(
+            f"benchmark is {shown(str(value))}, this judge knows {VERSION}: see the kit"
+        )
+    return declared(key, value)
+
+
+def _tags(value: Any) -> tuple[str, ...]:
+    """Return the tags."""
     if not (isinstance(value, list) and all(isinstance(one, str) for one in value)):
-        raise ValueError(f'{key} must be a list of texts, as {key} = ["...", "..."]')
-    for tag in value if key == "tags" else ():
+        raise ValueError('tags must be a list of texts, as tags = ["...", "..."]')
+    for tag in value:
         if tag not in TAGS:
             raise ValueError(f"unknown tag {shown(tag)}; known are {', '.join(TAGS)}")
     return tuple(value)
@@ -86,10 +88,14 @@ def _sheared(stated: Any) -> Theory:
     if "share" in rest:
         share = positive("share", rest["share"])
     else:
-        nu = rest["nu"]
-        if not (isinstance(nu, int | float) and -1.0 < nu <= 0.5):
-            raise ValueError(f"nu must be above -1 and at most 0.5, got {shown(str(nu))}")
+        nu = finite_number("nu", rest["nu"])
+        if not -1.0 < nu <= 0.5:
+            raise ValueError(f"nu must be above -1 and at most 0.5, got {nu:g}")
         share = 0.5 * positive("k_s", rest["k_s"]) / (1.0 + nu)
+    if not _SHARES[0] <= share <= _SHARES[1]:
+        raise ValueError(
+            f"share = {share:g} is no beam's, it must be from {_SHARES[0]:g} to {_SHARES[1]:g}"
+        )
     return Theory(shear=share, engesser=law == "Engesser")
 
 
@@ -97,10 +103,10 @@ def entry_text(declaration: Declaration) -> str:
     """Return the text of entry.toml, from which the same declaration is read."""
     stated, theory = vars(declaration), declaration.theory
     lines = [f"benchmark = {_quoted(VERSION)}"]
-    lines += [f"{key} = {_quoted(stated[key])}" for key in _TEXTS[1:] if stated[key]]
+    lines += [f"{key} = {_quoted(stated[key])}" for key in TEXTS[1:] if stated[key]]
     if declaration.authors:
         lines.append(f"authors = [{', '.join(map(_quoted, declaration.authors))}]")
-    lines += [f"{key} = {float(stated[key])!r}" for key in _ORDERS if stated[key] is not None]
+    lines += [f"{key} = {float(stated[key])!r}" for key in ORDERS if stated[key] is not None]
     held = (theory.shear is not None, theory.rotary_inertia, declaration.inextensible)
     tags = [_quoted(tag) for tag, there in zip(TAGS, held, strict=True) if there]
     lines.append(f"tags = [{', '.join(tags)}]")
@@ -111,5 +117,4 @@ def entry_text(declaration: Declaration) -> str:
 
 
 def _quoted(text: str) -> str:
-    # JSON's strings are TOML's but for DEL, which TOML wants escaped.
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return json.dumps(text, ensure_ascii=False)  # a declaration has no DEL, which TOML escapes

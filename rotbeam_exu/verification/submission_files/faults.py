@@ -149,6 +149,9 @@ def near(name: str, known: Iterable[str], told: Callable[[str], str] = repr) -> 
     alike = {one.lower(): one for one in known}
     for close in difflib.get_close_matches(name.lower(), alike, n=1):
         return f"did you mean {told(alike[close])}?"
+    begun = [told(one) for key, one in alike.items() if name and key.startswith(name.lower())]
+    if begun:
+        return f"did you mean {' or '.join(begun)}?"
     return f"known are {', '.join(alike.values())}"
 
 

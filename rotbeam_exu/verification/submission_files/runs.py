@@ -48,13 +48,26 @@ def runs_of(folder: Folder, only: Collection[str]) -> tuple[Run, ...]:
             found.append(Run(**row, time=np.empty(0), q=np.empty(0)))
         elif samples := history_of(folder, row["file"], case, step):
             found.append(Run(**row, **samples))
-    if not folder.is_faulty(FILE):
-        known = {row["file"] for row in listed}
-        said = f"stands in no row of {FILE}: add file, elements, step"
-        for file in there:
-            if file not in known:
-                folder.add(file, said)
+    complete, known = not folder.is_faulty(FILE), {row["file"] for row in listed}
+    for file in there:
+        if file in known:
+            continue
+        if complete:
+            folder.add(file, f"stands in no row of {FILE}: add file, elements, step")
+        else:
+            _check(folder, file, only)
     return tuple(found)
+
+
+def _check(folder: Folder, file: str, only: Collection[str]) -> None:
+    """Find the faults of a history whose row in runs.csv is missing or faulty."""
+    try:
+        case, _, kind, size = tables.RUNS[0].value(file).groups()
+    except ValueError as error:
+        folder.add(file, str(error))
+        return
+    if not only or case in only:
+        history_of(folder, file, CASES[case], float(size) if kind == "h" else math.nan)
 
 
 def _listed(folder: Folder) -> Iterator[dict[str, Any]]:

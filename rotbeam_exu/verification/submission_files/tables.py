@@ -16,7 +16,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from analytic.letters import plain_text
+
 from ..cases import CASES, TIP, Asked, Case
+from ..submission import LONGEST_REMARKS
 from .faults import Folder, near, shown
 
 LONGEST_LINE = 10_000
@@ -40,9 +43,12 @@ _SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
 _SAME = 1e-6
 """Relative distance within which a speed or an amplitude is taken for a requested one."""
 
+LEAST, MOST = 1e-20, 1e12
+"""Sizes of numbers that are read, in any unit; what is beyond is a slip, or a run that diverged."""
+
 _RANGES: dict[str, Callable[[float], bool]] = {
     "be a whole number of at least 1": lambda value: value >= 1.0 and value.is_integer(),
-    "be positive": lambda value: value > 0.0,
+    f"be positive, of {LEAST:g} at least": lambda value: value >= LEAST,
     "not be negative": lambda value: value >= 0.0,
 }
 WHOLE, POSITIVE, NOT_NEGATIVE = _RANGES
@@ -86,8 +92,11 @@ class Column:
 
 
 def number(name: str, cell: str) -> float:
-    """Return a finite number."""
+    """Return a finite number of at most MOST."""
     if _NUMBER.fullmatch(cell) and math.isfinite(float(cell)):
+        if abs(float(cell)) > MOST:
+            why = f"is larger than {MOST:g}: check the unit, or hand in the failure of the run"
+            raise ValueError(f"{name}: {shown(cell)} {why}")
         return float(cell)
     if not cell:
         raise ValueError(f"{name}: a cell is empty: write a number")
@@ -111,13 +120,17 @@ def _history(cell: str) -> re.Match[str]:
     return match
 
 
-ELEMENTS, FAILURE = Column("elements", must=WHOLE), Column("failure", text=str, needed=False)
+def _sentence(name: str) -> Column:
+    return Column(name, text=lambda cell: plain_text(name, cell, LONGEST_REMARKS), needed=False)
+
+
+ELEMENTS, FAILURE = Column("elements", must=WHOLE), _sentence("failure")
 RUNS = (
     Column("file", text=_history), ELEMENTS,
     Column("step", "s", POSITIVE, needed=False), Column("tolerance", must=POSITIVE, needed=False),
     Column("dof", must=WHOLE, needed=False), Column("wall_s", "s", NOT_NEGATIVE, needed=False),
     Column("cpu_s", "s", NOT_NEGATIVE, needed=False),
-    FAILURE, Column("remark", text=str, needed=False),
+    FAILURE, _sentence("remark"),
 )  # fmt: skip
 """Columns of runs.csv."""
 
