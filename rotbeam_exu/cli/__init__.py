@@ -37,7 +37,7 @@ app = cyclopts.App(
 _COMMANDS = (
     "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
     "converge", "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge",
-    "schema", "doctor",
+    "schema", "doctor", "blade",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 

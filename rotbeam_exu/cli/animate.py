@@ -100,7 +100,7 @@ def animate(
     from ..datasets import dataset_of
     from ..figures import animation
 
-    corners(height, width)
+    corners(beam, np.linspace(0.0, beam.length, 41), height, width)
     if target.suffix != ".pvd":
         animation.check_format(target)
     require_writable(target, force=force)

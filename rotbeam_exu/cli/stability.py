@@ -10,7 +10,7 @@ import numpy as np
 import analytic
 from analytic.input_checks import not_negative, whole_number
 
-from ..files.results import parts
+from ..files.result_tables import parts
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
