@@ -67,7 +67,7 @@ def test_the_dots_of_a_campbell_diagram_lie_on_its_curves(beam):
     diagram = campbell(beam.with_shape(Tube()), [0.0, 6.0, 12.0], 3, 6)
     ax = diagram.plot()
     curves = dict(zip(diagram.names, ax.lines[-4:-1], strict=True))
-    assert {one.mode for one in diagram.crossings} == {"lag 1", "flap 1", "lag 2"}
+    assert {one.mode for one in diagram.crossings} == set(diagram.names)
     for one in diagram.crossings:
         curve = curves[one.mode]
         drawn = np.interp(one.omega, curve.get_xdata(), curve.get_ydata())
