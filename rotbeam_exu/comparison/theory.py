@@ -215,7 +215,7 @@ def model_budget(
     frequencies before and after its step; the sources add up to the whole error. The first are the
     linear frequency (both relative to the model's own ω_n), the perturbation (Eq. 63 less Eq. 41
     solved exactly from the peak a) and the shape (cantilever's mode for the rotating one). Then
-    come the elongation (the model's for the static solution), the foreshortening (-v'²/2 for -v'²/2 -
+    come the elongation (its own for the static solution), the foreshortening (-v'²/2 for -v'²/2 -
     v'⁴/8), the Coriolis modes (FrC less FrM), and the rest between FrM and the exact beam.
 
     Returns

@@ -152,7 +152,7 @@ def test_columns_are_the_result_s():
             ],
             "omega, 2.0 and 6.0",
         ),
-        ([lambda R=R: spun(BEAM.with_hub_radius(R)) for R in (1.0, 2.0)], "hub_radius, 1.0 and 2.0"),
+        ([lambda R=R: spun(BEAM.with_hub_radius(R)) for R in (1.0, 2.0)], "blade, "),
         (
             [lambda n=n: analytic.linear_modes(BEAM, 2.0, n) for n in (2, 3)],
             "error, ",
