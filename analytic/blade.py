@@ -31,9 +31,9 @@ from .input_checks import (
 )
 from .parts import STRAIGHT, UNDAMPED, Damping, Line, Offset, PointMass
 from .section import OutOfPlane, Section
-from .section_shapes import Gyration, SectionShape, require_shape
+from .section_shape import Gyration, SectionShape, require_shape
 from .shape_functions import shape_functions
-from .station_section import section_of_table
+from .station_section import Interpolation, section_of_table
 from .unit_blade import UnitBlade
 
 _FUNCTIONS, _POINTS = 24, 32  # for scales: ω0 and the burst speed
@@ -254,6 +254,7 @@ class Blade(Variations):
         shear: ArrayLike = 0.0,
         center: ArrayLike = 0.0,
         axis: ArrayLike = 0.0,
+        interpolation: Interpolation = "components",
     ) -> Blade:
         """Return a blade in space from a table of its sections, linear between its stations.
 
@@ -276,6 +277,10 @@ class Blade(Variations):
             from the axis of the table; matrices have theirs in them.
         axis : array_like (stations, 2)
             (c2, c3) [m] of the table's axis from the blade's line, by which matrices are moved.
+        interpolation : {"components", "matrix"}
+            Linear between stations are the places of the centers and what is given about them, of
+            matrices as of columns; or, as in BeamDyn, the matrices about the line, which makes
+            sections between two stations stiffer, by up to EA Δc²/4 in bending.
 
         Raises
         ------
@@ -296,8 +301,9 @@ class Blade(Variations):
         array([5.356, 6.891])
         """
         section = section_of_table(
-            x, stiffness, mass, tension=tension, shear=shear, center=center, axis=axis
-        )
+            x, stiffness, mass, interpolation,
+            tension=tension, shear=shear, center=center, axis=axis,
+        )  # fmt: skip
         angles = along("twist", twist, len(section.x), "rad").tolist()
         line = Line(twist=tuple(zip(section.x, angles, strict=True)))
         return cls(length=section.x[-1], section=section, line=line)

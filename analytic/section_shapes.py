@@ -1,149 +1,30 @@
-"""Shapes of sections, which tell how a blade of their A and I bends and twists out of its plane.
-
-A new shape is a frozen dataclass that inherits from `SectionShape`.
-"""
+"""Shapes of sections: full and hollow rectangles and ellipses; each a `SectionShape`."""
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
-from .description import Described
-from .input_checks import not_negative, positive, shown
-from .section import OutOfPlane
+from .input_checks import positive
+from .section_shape import Gyration, Length, Ratio
+from .section_shape import SectionShape as SectionShape  # noqa: PLC0414  (with its kinds)
+from .warning import warn
 
 _PLACES = 61  # terms of the torsion series, whose rest is below 1e-9
-_SAME = 0.01  # what rounded lengths may differ from A and I
-_NO_LENGTHS = ("poisson_ratio", "ratio")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Gyration:
-    """I/A [m²], which is EI/EA whatever the material, and A [m²] if it is known."""
-
-    squared: float
-    area: float | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class SectionShape(Described, ABC, abstract=True):
-    """Shape of a section at the root; lengths [m] that are left out follow from the blade.
-
-    Parameters
-    ----------
-    poisson_ratio : float
-        ν of the shear modulus E/(2 (1 + ν)).
-
-    Raises
-    ------
-    ValueError
-        If a value is out of range; of a blade, if the shape has another I/A or A than it.
-    """
-
-    poisson_ratio: float = 0.3
-
-    def __post_init__(self) -> None:
-        self._keep(**{name: positive(name, value, "m") for name, value in self._given.items()})
-        self._keep(poisson_ratio=not_negative("poisson_ratio", self.poisson_ratio))
-        if self.poisson_ratio > 0.5:
-            raise ValueError(f"poisson_ratio must be at most 0.5, got {self.poisson_ratio:g}")
-
-    @abstractmethod
-    def _fitting(self, own: Gyration) -> dict[str, float]:
-        """Return the lengths [m] by name that follow from I/A and, if it is known, A."""
-
-    @abstractmethod
-    def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
-        """Return I/A and A of these lengths [m]."""
-
-    @abstractmethod
-    def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
-        """Return I out of the plane and the torsion constant J over I."""
-
-    def out_of_plane(self, own: Gyration) -> OutOfPlane:
-        """Return the stiffness out of the plane, refusing what contradicts the blade's `own`."""
-        lengths = self._fitting(own) | self._given
-        if difference := self._difference(lengths, own):
-            fitting = type(self)()._fitting(own)
-            remedy = f"{', '.join(f'{name}={x:.4g}' for name, x in fitting.items())} fits it"
-            if not fitting or (own.area and self._difference(fitting, own)):
-                remedy = "take another shape, or with_section_out_of_plane"
-            raise ValueError(f"{self!r} has {difference} of this blade: {remedy}")
-        across, torsion = self._ratios(lengths)
-        shear = 0.5 / (1.0 + self.poisson_ratio)
-        return OutOfPlane(bending_ratio=across, torsion_ratio=shear * torsion)
-
-    def _difference(self, lengths: Mapping[str, float], own: Gyration) -> str:
-        """Return how the lengths contradict a blade's `own`, empty if they do not."""
-        has = self._gyration(lengths)
-        for what, found, wanted in (
-            ("I/A", has.squared, own.squared), ("A", has.area, own.area)
-        ):  # fmt: skip
-            off = abs(found / wanted - 1.0) if found and wanted else 0.0
-            if off > _SAME:
-                return f"{what} = {found:.4g} m², {100.0 * off:.3g} % from the {wanted:.4g} m²"
-        return ""
-
-    @abstractmethod
-    def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
-        """Return the shear coefficients along height and width."""
-
-    def of_material(
-        self, youngs_modulus: float, density: float
-    ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Return a station's columns, the height along the chord: EA ... EI3, and m ... j3.
-
-        As `Blade.from_stations` takes them; GA2 and GA3 have Cowper's shear coefficients (1966).
-
-        Parameters
-        ----------
-        youngs_modulus, density : float
-            E [N/m²] and ρ [kg/m³].
-
-        Raises
-        ------
-        ValueError
-            If the shape does not tell all its lengths.
-        """
-        E, rho = (
-            positive("youngs_modulus", youngs_modulus, "Pa"),
-            positive("density", density, "kg/m^3"),
-        )
-        names = [field.name for field in fields(self) if field.name not in _NO_LENGTHS]
-        if missing := [name for name in names if name not in self._given]:
-            raise ValueError(f"{self!r} along a blade needs {' and '.join(missing)} [m]")
-        own = self._gyration(self._given)
-        A = own.area or math.nan
-        inertia, G = own.squared * A, 0.5 * E / (1.0 + self.poisson_ratio)
-        (across, torsion), (k2, k3) = self._ratios(self._given), self._shear(self._given)
-        stiffness = E * A, k2 * G * A, k3 * G * A, G * torsion * inertia, E * across * inertia
-        j2, j3 = rho * across * inertia, rho * inertia
-        return (*stiffness, E * inertia), (rho * A, j2 + j3, j2, j3)
-
-    @property
-    def _given(self) -> dict[str, float]:
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {k: x for k, x in values.items() if x is not None and k not in _NO_LENGTHS}
-
-
-def require_shape(shape: object) -> None:
-    """Refuse what is no shape of a section."""
-    if not isinstance(shape, SectionShape):
-        raise TypeError(f"a SectionShape is needed, got {shown(shape)}: as Rectangle()")
 
 
 @dataclass(frozen=True, kw_only=True)
 class _TwoSided(SectionShape, ABC, abstract=True):
     """A shape with a height in the plane of bending and a width, or the ratio of both."""
 
-    height: float | None = None
-    width: float | None = None
-    ratio: float | None = None
+    height: Length | None = None
+    width: Length | None = None
+    ratio: Ratio | None = None
 
     _deep: ClassVar[float]  # h² A/I
     _filled: ClassVar[float]  # A/(h b)
@@ -260,8 +141,18 @@ class Tube(SectionShape):
         ν, which tells the shear modulus.
     """
 
-    radius: float | None = None
-    wall: float | None = None
+    radius: Length | None = None
+    wall: Length | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        r, t = self.radius, self.wall
+        if r is not None and t is not None and t > r:
+            warn(
+                f"radius = {r:g} m is that of the middle of the wall, so that a wall of {t:g} m is "
+                f"between the radii {r - 0.5 * t:g} and {r + 0.5 * t:g} m: give the outer radius "
+                "less half the wall"
+            )
 
     def _fitting(self, own: Gyration) -> dict[str, float]:
         if own.area is None:
@@ -313,9 +204,9 @@ class Box(SectionShape):
     313 kg
     """
 
-    height: float | None = None
-    width: float | None = None
-    wall: float | None = None
+    height: Length | None = None
+    width: Length | None = None
+    wall: Length | None = None
 
     def _fitting(self, own: Gyration) -> dict[str, float]:
         return {}  # height and wall do not follow from I/A and A alone

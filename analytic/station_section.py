@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar, Never
+from typing import Any, ClassVar, Literal, Never, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, Profile
-from .input_checks import finite_array, finite_values, require_ascending, require_offset
+from .input_checks import finite_array, finite_values, require_ascending, require_offset, shown
 from .section import OutOfPlane, Section
 
 _EVEN = 1e-6  # of a matrix whose entries a table rounds
@@ -24,6 +24,7 @@ STIFFNESSES = ("EA", "GA2", "GA3", "GJ", "EI2", "EI3")
 MASSES = ("m", "j1", "j2", "j3")
 
 Matrix = tuple[tuple[float, ...], ...]
+Interpolation = Literal["components", "matrix"]
 
 
 def hat(vector: FloatArray) -> FloatArray:
@@ -63,13 +64,13 @@ def _offsets(name: str, values: ArrayLike, x: FloatArray) -> FloatArray:
 
 def _table(name: str, values: ArrayLike, columns: tuple[str, ...], x: FloatArray) -> FloatArray:
     """Return columns (stations, columns) or matrices (stations, 6, 6)."""
-    found = finite_array(name, values, None)
-    if found.shape not in ((x.size, len(columns)), (x.size, 6, 6)):
+    table = finite_array(name, values, None)
+    if table.shape not in ((x.size, len(columns)), (x.size, 6, 6)):
         raise ValueError(
             f"{name} must have the columns {', '.join(columns)}, or be 6x6 matrices, at each of "
-            f"the {x.size} stations, got {found.shape}"
+            f"the {x.size} stations, got {table.shape}"
         )
-    return found
+    return table
 
 
 def _stiffness_of(columns: FloatArray, tension: FloatArray, shear: FloatArray) -> FloatArray:
@@ -84,11 +85,32 @@ def _mass_of(columns: FloatArray, center: FloatArray) -> FloatArray:
     return moved(columns[:, [0, 0, 0, 1, 2, 3], None] * np.eye(6), center)
 
 
+def _to_centers(matrices: FloatArray) -> FloatArray:
+    """Return T (stations, 6, 6), by which strains, or velocities, are those at the centers.
+
+    ε at the center of tension, where it does not couple with bending, and shear at the center of
+    shear, where it does not couple with torsion; of a mass both are at its center.
+    """
+    onto = np.tile(np.eye(6), (len(matrices), 1, 1))
+    onto[:, 0, 4:] = matrices[:, 0, 4:] / matrices[:, :1, 0]
+    onto[:, 1:3, 3:4] = np.linalg.solve(matrices[:, 1:3, 1:3], matrices[:, 1:3, 3:4])
+    return onto
+
+
 def section_of_table(
-    x: ArrayLike, stiffness: ArrayLike, mass: ArrayLike, **centers: ArrayLike
+    x: ArrayLike,
+    stiffness: ArrayLike,
+    mass: ArrayLike,
+    interpolation: Interpolation,
+    **centers: ArrayLike,
 ) -> StationSection:
     """Return the section of a table of `Blade.from_stations`, about the blade's line."""
     at = finite_values("x", x, "m")
+    if at.size < 2 or at[0] != 0.0:
+        raise ValueError(
+            f"x must be two stations or more from 0 to the length, got {at.size} from {at[0]:g} to "
+            f"{at[-1]:g} m"
+        )
     require_ascending("x", at.tolist(), "m")
     places = {name: _offsets(name, values, at) for name, values in centers.items()}
     S, M = _table("stiffness", stiffness, STIFFNESSES, at), _table("mass", mass, MASSES, at)
@@ -103,12 +125,14 @@ def section_of_table(
     if M.ndim == 2:
         M = _mass_of(M, places["center"])
     S, M = (moved(matrices, places["axis"]) for matrices in (S, M))
-    return StationSection(x=tuple(at.tolist()), stiffness=nested(S), mass=nested(M))
+    return StationSection(
+        x=tuple(at.tolist()), stiffness=nested(S), mass=nested(M), interpolation=interpolation
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
 class StationSection(Section):
-    """Section by 6x6 matrices at stations, linear in between; made by `Blade.from_stations`.
+    """Section by 6x6 matrices at stations; made by `Blade.from_stations`.
 
     Parameters
     ----------
@@ -116,6 +140,9 @@ class StationSection(Section):
         Stations from the clamp to the tip [m].
     stiffness, mass : tuple
         6x6 matrices at these, about the blade's line in axes of the section; SI units.
+    interpolation : {"components", "matrix"}
+        Between stations the places of the centers and the matrices about these are linear, or the
+        matrices about the line.
 
     Raises
     ------
@@ -126,6 +153,7 @@ class StationSection(Section):
     x: tuple[float, ...]
     stiffness: tuple[Matrix, ...] = field(repr=False)
     mass: tuple[Matrix, ...] = field(repr=False)
+    interpolation: Interpolation = "components"
     axial_stiffness: Profile = field(init=False, repr=False)
     bending_stiffness: Profile = field(init=False, repr=False)
     mass_per_length: Profile = field(init=False, repr=False)
@@ -140,6 +168,10 @@ class StationSection(Section):
         return True
 
     def __post_init__(self) -> None:
+        if self.interpolation not in get_args(Interpolation):
+            raise ValueError(
+                f'interpolation must be "components" or "matrix", got {shown(self.interpolation)}'
+            )
         x = finite_array("x", self.x, "m").ravel()
         S, M = (_matrices(name, x, getattr(self, name)) for name in ("stiffness", "mass"))
         for at, one in zip(x, S, strict=True):
@@ -160,14 +192,33 @@ class StationSection(Section):
         """Stiffness and mass, (2, stations, 6, 6)."""
         return np.array((self.stiffness, self.mass))
 
+    @cached_property
+    def _about_centers(self) -> FloatArray:
+        """T and T⁻ᵀ S T⁻¹ of stiffness and mass, (2, 2, stations, 6, 6)."""
+        onto = np.stack([_to_centers(kind) for kind in self._arrays])
+        back = 2.0 * np.eye(6) - onto
+        return np.stack((onto, np.swapaxes(back, -1, -2) @ self._arrays @ back))
+
+    @cached_property
+    def _linear(self) -> FloatArray:
+        """T and the matrices about its centers, linear between stations; or about the line."""
+        if self.interpolation == "components":
+            return self._about_centers
+        return np.stack((np.broadcast_to(np.eye(6), self._arrays.shape), self._arrays))
+
+    @property
+    def stiffnesses(self) -> FloatArray:
+        """EA, GA2, GA3, GJ, EI2 and EI3 about their centers at the stations, (stations, 6)."""
+        return np.asarray(np.einsum("sii->si", self._about_centers[1, 0]))
+
     def matrices(self, x: FloatArray) -> FloatArray:
         """Return stiffness and mass at `x` between stations, in their unit, (2, places, 6, 6)."""
         at = np.array(self.x)
         first = np.minimum(np.searchsorted(at, x, side="right"), at.size - 1) - 1
         share = ((x - at[first]) / np.diff(at)[first])[:, None, None]
-        return np.asarray(
-            (1.0 - share) * self._arrays[:, first] + share * self._arrays[:, first + 1]
-        )
+        ends = self._linear
+        onto, about = (1.0 - share) * ends[:, :, first] + share * ends[:, :, first + 1]
+        return np.asarray(np.swapaxes(onto, -1, -2) @ about @ onto)
 
     def couples(self, one: tuple[int, ...], other: tuple[int, ...]) -> bool:
         """Whether an entry of any matrix couples two sets of axes."""
@@ -175,14 +226,17 @@ class StationSection(Section):
 
     @property
     def has_kinks_in_mass(self) -> bool:
-        """Whether the slope of any entry of the mass changes at a station."""
-        slopes = np.diff(self._arrays[1], axis=0) / np.diff(self.x)[:, None, None]
-        return bool(np.any(np.ptp(slopes, axis=0) > 1e-9 * np.abs(slopes).max(axis=0)))
+        """Whether the slope of the center of mass, or of the mass about it, changes anywhere."""
+        ends = self._linear[:, 1]
+        size = np.sqrt(np.abs(np.einsum("sii->si", self._arrays[1])).max(axis=0))
+        scale = np.stack((np.abs(ends[0]).max(axis=0), np.outer(size, size)))
+        slopes = np.diff(ends, axis=1) / np.diff(self.x)[:, None, None]
+        return bool(np.any(np.ptp(slopes, axis=1) > 1e-9 * scale / self.x[-1]))
 
-    def diagonal(self, kind: int) -> list[tuple[tuple[float, float], ...]]:
-        """Return the six entries on the diagonal of the stiffness, 0, or of the mass, 1."""
-        values = np.diagonal(self._arrays[kind], axis1=1, axis2=2).T.tolist()
-        return [tuple(zip(self.x, one, strict=True)) for one in values]
+    @property
+    def inertia_against_torsion(self) -> Profile:
+        """Inertia about the line at the stations [kg m]."""
+        return tuple((x, one[3][3]) for x, one in zip(self.x, self.mass, strict=True))
 
     def in_units(self, length: float, mass: float, time: float) -> StationSection:
         """Return the section in units of length [m], mass [kg] and time [s]."""
@@ -194,6 +248,7 @@ class StationSection(Section):
             x=tuple(x / length for x in self.x),
             stiffness=nested(stiffness / force),
             mass=nested(inertia * length / mass),
+            interpolation=self.interpolation,
         )
 
     def tapered(self, width: float, height: float) -> Never:

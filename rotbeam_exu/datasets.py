@@ -22,7 +22,7 @@ from analytic.exact.free.orbits import Orbits
 from analytic.loads import Load, rippled
 from analytic.reduced.linear_frame import LinearResponse
 
-from .files.results import parts
+from .files.result_tables import frame, parts
 from .labels import GROWTH, dataset
 from .lazily import xr
 from .result_columns import COLUMNS, SWINGS, of_columns
@@ -100,8 +100,7 @@ def frames_of(*results: Any) -> dict[str, Any]:
     """
     frames = {}
     for name, part in parts(dataset_of(*results)).items():
-        rows = part if part.dims else part.expand_dims("row")
-        frames[name] = rows.to_dataframe().reset_index()
+        frames[name] = frame(part)
         frames[name].attrs = {str(k): one.attrs.get("units", "1") for k, one in part.items()}
     return frames
 

@@ -25,7 +25,7 @@ GOLDEN = HERE.parents[1] / "tests" / "comparison" / "golden"
 def golden() -> xr.Dataset:
     """Return the data of Figure 14 as they are kept."""
     tables = [
-        pd.read_csv(GOLDEN / f"figure_14-{name}.csv", comment="#").rename(
+        pd.read_csv(GOLDEN / f"figure_14-{name}.csv").rename(
             columns=lambda column: column.split(" [")[0]
         )
         for name in ("amplitude", "backbone")

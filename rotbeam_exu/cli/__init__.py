@@ -1,4 +1,4 @@
-"""The command line `rotbeam`. Only this package prints.
+"""The command line `rotbeam`. Only this package prints, and the bar of a film that is drawn.
 
 A command imports its libraries when it runs, so that --help and theory are quick.
 """
@@ -38,7 +38,7 @@ app = cyclopts.App(
 _COMMANDS = (
     "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
     "converge", "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge",
-    "schema", "doctor",
+    "schema", "doctor", "blade",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 

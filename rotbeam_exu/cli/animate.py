@@ -12,7 +12,7 @@ from cyclopts import Parameter
 from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
-from ..files.results import load, whole_file
+from ..files.results import load
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
@@ -72,7 +72,7 @@ def animate(
     whole_number("rate", rate)
     kept = None if run is None else load(run)
     if kept is None:
-        file = configured(config)
+        file = configured(config, "motion", "numerics.duration")
         beam = file.beam
         spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
         speed, ramp = spin_up.omega, spin_up.ramp_time
@@ -100,7 +100,7 @@ def animate(
     from ..datasets import dataset_of
     from ..figures import animation
 
-    corners(height, width)
+    corners(beam, np.linspace(0.0, beam.length, 41), height, width)
     if target.suffix != ".pvd":
         animation.check_format(target)
     require_writable(target, force=force)
@@ -119,9 +119,9 @@ def animate(
     if target.suffix == ".pvd":
         save_vtk(data, target, height=height, width=width)
     else:
-        with bar("drawing") as drawn, whole_file(target) as partial:
+        with bar("drawing") as drawn:
             animation.save_animation(
-                data, partial, beside=linear, rate=rate, progress=lambda n: drawn(n, count)
+                data, target, beside=linear, rate=rate, progress=lambda n: drawn(n, count)
             )
     size = sum(file.stat().st_size for file in (target, *target.with_suffix("").glob("*.vtu")))
     print_text(

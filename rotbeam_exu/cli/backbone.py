@@ -70,7 +70,7 @@ def backbone(
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
     $ rotbeam backbone --omega 6 --mode 2 --amplitude 0.02 0.05
     """
-    file = configured(config)
+    file = configured(config, "motion.omega")
     omega = omega_of(file, omega)
     if whole_number("mode", mode) > 1 and (variant is not None or all_variants):
         raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")

@@ -73,7 +73,7 @@ def campbell(
     """
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
-    file = configured(config)
+    file = configured(config, "motion.omega")
     beam = shape.of(file.beam)
     usual = 2.0 * file.motion.get("omega", chosen_speeds(beam, 6.0)[0])
     highest = usual if omega_max is None else omega_max

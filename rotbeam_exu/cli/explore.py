@@ -34,8 +34,7 @@ def explore(
     out
         HTML file to write; by default explorer.html, or explorer-NAME.html for NAME.toml.
     config
-        TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's. Its
-        [numerics] is not used.
+        TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's.
     cache
         Folder that keeps the finite element runs for the next time.
     jobs
@@ -54,12 +53,7 @@ def explore(
     if out is None:
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     require_writable(out, force=force, ending=".html")
-    file = configured(config)
-    if file.motion:
-        raise ValueError(
-            "the Explorer has sliders for speed and ramp time: leave [motion] out of the file"
-        )
-    beam = file.beam
+    beam = configured(config).beam
     options = {} if config is None else _scaled(beam)
     with Workers(cache=cache, jobs=jobs).counted("exact orbits and spin-ups") as how:
         data = explorer_data(beam, **how, **options)

@@ -96,7 +96,8 @@ class Results:
 
         path = self.out / name
         writable_folder(self.out)
-        refuse_to_replace(inputs, Path(f"{path}.nc"), force=self.force)
+        for end in (".nc", ".json"):
+            refuse_to_replace(inputs, Path(f"{path}{end}"), force=self.force)
         try:
             result: Any = compute() if compute else inputs
         except RuntimeError as error:
@@ -125,7 +126,7 @@ class Results:
 def refuse_to_replace(
     inputs: xr.Dataset | Mapping[str, object], target: Path, *, force: bool
 ) -> None:
-    """Refuse, unless forced, where a netCDF file holds a result of other inputs."""
+    """Refuse, unless forced, where a file holds a result of other inputs: netCDF or JSON."""
     differing = {} if force else differing_inputs(inputs, target)
     if not differing:
         return

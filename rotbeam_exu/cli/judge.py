@@ -172,7 +172,7 @@ def verify(*, element: list[str] | None = None, config: Config = None) -> None:
     from ..verification.verify import verify as verification_of
 
     own = [formulation_entry(element_of(name)) for name in element or ()]
-    file = configured(config)
+    file = configured(config, "motion", "numerics.duration", "numerics.step")
     motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
     entries = own or entries_at_hand()
     if config:

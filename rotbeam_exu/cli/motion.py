@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -15,6 +15,7 @@ from cyclopts import Parameter
 from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive
 from analytic.loads import Load
+from analytic.warning import warn
 
 from ..files.beam_file import RunFile, load_run_file
 from ..runs import Frame
@@ -98,17 +99,26 @@ def chosen_motion(
     return ChosenMotion(spin_up=spin_up, duration=duration, step=step)
 
 
-def configured(config: Path | None, *, takes_loads: bool = False) -> RunFile:
-    """Return a run from a TOML file; without one, the paper's beam and nothing else.
+def configured(config: Path | None, *uses: str) -> RunFile:
+    """Return what a command uses of a TOML file; without one, the paper's beam and nothing else.
 
-    Loads of the file are refused, unless the command takes them.
+    `uses` names tables, as "loads", or keys of a table, as "motion.omega". A table of which the
+    command uses nothing is refused; a warning names the other keys of a table that it uses.
     """
     file = RunFile(beam=Beam.reference()) if config is None else load_run_file(config)
-    if file.loads and not takes_loads:
-        raise ValueError(
-            "the file has [[loads]], which only run, sweep and converge take: leave them out"
-        )
-    return file
+    kept: dict[str, Any] = {}
+    for name in (one.name for one in fields(file) if one.name not in ("beam", *uses)):
+        given = getattr(file, name)
+        keys = [use.removeprefix(f"{name}.") for use in uses if use.startswith(f"{name}.")]
+        if given and not keys:
+            title = f"[{name}]" if isinstance(given, Mapping) else f"[[{name}]]"
+            raise ValueError(
+                f"{config} has {title}, of which this command uses nothing: leave it out"
+            )
+        if spare := [key for key in given if key not in keys]:
+            warn(f"{config}: this command does not use {', '.join(spare)} of [{name}]")
+            kept[name] = {key: given[key] for key in keys if key in given}
+    return replace(file, **kept)
 
 
 def omega_of(file: RunFile, omega: float | None) -> float:
@@ -171,15 +181,22 @@ def _one_two_five(value: float) -> float:
 
 
 def element_of(name: str) -> Formulation:
-    """Return the formulation of a name, or of one's own class as module:Class."""
-    from ..fem.elements import formulation
+    """Return the formulation of a name, or of one's own class as module:Class.
+
+    Only for names of the command line, whose user may run any code.
+    """
+    from ..fem.elements import Formulation, formulation
 
     module, colon, kind = name.partition(":")
     if not colon:
         return formulation(name)
-    sys.path.insert(0, str(Path.cwd()))  # as of `python -m`; a sweep's workers need it too
+    if (here := str(Path.cwd())) not in sys.path:
+        sys.path.append(here)  # where a sweep's workers find it, too
     try:
-        return formulation(getattr(import_module(module), kind)())
+        cls = getattr(import_module(module), kind)
+        if not (isinstance(cls, type) and issubclass(cls, Formulation)):
+            raise TypeError("it is no class that inherits from Formulation")
+        return formulation(cls())
     except (AttributeError, ImportError, TypeError) as error:
         raise ValueError(
             f"no element can be made of {name}: {error}; give module:Class, the module in this "

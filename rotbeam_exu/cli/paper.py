@@ -106,8 +106,7 @@ def compare(
     amplitude
         Amplitude over the length at which the models' budget is printed.
     config
-        TOML file with the beam; without it, the paper's beam. Its [motion] is that of Figure 15,
-        its [numerics] is not used.
+        TOML file with the beam; without it, the paper's beam. Its [motion] is that of Figure 15.
 
     Examples
     --------
@@ -117,7 +116,7 @@ def compare(
     from .. import comparison
 
     require_exudyn()
-    file = configured(config)
+    file = configured(config, "motion")
     beam = file.beam.uniform
     if beam is None:
         raise ValueError(
@@ -127,10 +126,10 @@ def compare(
     mine = {} if config is None else beam_attributes(beam)
     omegas = chosen_speeds(beam, *paper.SPEEDS)
     ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
+    motion, main = _even(grid_motion(beam, omegas, ramp_times)), motion_of(file)
     models = comparison.model_budget(beam, omegas=omegas, amplitudes=(amplitude,))
     target = results.out / "budget_models.nc"
     refuse_to_replace(models.assign_attrs(mine), target, force=results.force)
-    motion, main = _even(grid_motion(beam, omegas, ramp_times)), motion_of(file)
     with workers.counted("spin-ups") as how:
         data = {
             "figure_14": comparison.figure_14(

@@ -52,7 +52,7 @@ def ramp(
     """
     from .. import comparison
 
-    file = configured(config)
+    file = configured(config, "motion.omega", "numerics.element", "numerics.elements")
     beam = file.beam
     motion = motion_of(file, omega=omega)
     omega = motion.spin_up.omega

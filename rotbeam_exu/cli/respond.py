@@ -9,6 +9,7 @@ from cyclopts import Parameter
 
 import analytic
 from analytic.input_checks import positive, whole_number
+from analytic.warning import warn
 
 from ..lazily import xr
 from .job import Flag, Results
@@ -63,7 +64,7 @@ def respond(
     from ..datasets import response_inputs
 
     load = loads.one()
-    file = configured(config)
+    file = configured(config, "motion.omega")
     beam = dampings.on(file.beam)
     if beam is file.beam and not any(beam.unit.damping):  # and no zero is given
         raise ValueError(
@@ -77,6 +78,8 @@ def respond(
             f"under --{option_of(type(load))} the rotation speeds are those --from one --to "
             "another: leave --omega out"
         )
+    elif file.motion:
+        warn(f"{config}: under --{option_of(type(load))} omega of [motion] is not used")
     if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
     frequencies = np.linspace(first, last, whole_number("points", points, least=2))

@@ -62,7 +62,7 @@ def run(
     from ..runs.oscillation import steady_oscillation
     from ..verification.assessment import assess
 
-    file = configured(config, takes_loads=True)
+    file = configured(config, "motion", "numerics", "loads")
     numerics = discretization.over(file.numerics)
     case = driving.spin_up_case(file, numerics, omega, ramp_time)
     given = omega is not None or "omega" in file.motion
@@ -176,7 +176,7 @@ def reference(
     $ rotbeam reference
     $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
     """
-    file = configured(config)
+    file = configured(config, "motion", "numerics.duration")
     if duration is None:
         duration = file.numerics.get("duration")
     tolerance = positive("tolerance", tolerance)

@@ -10,7 +10,7 @@ import numpy as np
 import analytic
 from analytic.input_checks import not_negative, whole_number
 
-from ..files.results import parts
+from ..files.result_tables import parts
 from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
@@ -59,7 +59,7 @@ def stability(
     """
     whole_number("mode", mode)
     not_negative("damping-ratio", damping_ratio)
-    file = configured(config)
+    file = configured(config, "motion.omega")
     omega = omega_of(file, omega)
     blade = shape.of(file.beam)
     if blade.section.out_of_plane is None:

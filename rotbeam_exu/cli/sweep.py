@@ -62,7 +62,7 @@ def sweep(
     """
     from ..sweeps.grid import sweep as run_sweep
 
-    file = configured(config, takes_loads=True)
+    file = configured(config, "motion", "numerics", "loads")
     beam = driving.dampings.on(file.beam)
     numerics = discretization.over(file.numerics)
     omegas, ramp_times = omega, ramp_time
@@ -141,7 +141,8 @@ def converge(
     """Print the errors of a mesh and a step, and which to take.
 
     Natural frequencies and one spin-up, as `run` has it, on coarser and finer meshes and smaller
-    steps; one fit to all of them gives errors and orders. Writes netCDF and CSV.
+    steps; one fit to all of them gives errors and orders. Writes netCDF and CSV. Frequencies of a
+    mesh and spin-ups that are done stay in the cache: a call that was stopped goes on from there.
 
     Parameters
     ----------
@@ -159,7 +160,7 @@ def converge(
     """
     from .. import comparison
 
-    file = configured(config, takes_loads=True)
+    file = configured(config, "motion", "numerics", "loads")
     numerics = discretization.over(file.numerics)
     case = driving.spin_up_case(file, numerics, omega, ramp_time)
     whole_number("elements", case.elements, least=2)
@@ -168,7 +169,8 @@ def converge(
 
     def computed() -> xr.Dataset:
         exact = not no_exact
-        with workers.counted("spin-ups") as how:
+        pieces = "frequencies and spin-ups"
+        with workers.counted(pieces, pieces) as how:
             return comparison.refinement(case, count=count, tolerance=tolerance, exact=exact, **how)
 
     name = f"converge-{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"

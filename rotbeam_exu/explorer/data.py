@@ -119,12 +119,16 @@ def explorer_data(
         if progress is not None:
             progress(next(done), total)
 
+    def finished(future: Future[Any]) -> None:
+        if not future.cancelled() and future.exception() is None:
+            one_more()
+
     with worker_pool(None, jobs, total) as pool:
         exact = [pool.submit(exact_orbits, beam, omega, tuple(amplitudes)) for omega in omegas]
         spun = [pool.submit(exact_spin_up, beam, *ramp, duration) for ramp in ramps]
         futures: list[Future[Any]] = [*exact, *spun]
         for future in futures:
-            future.add_done_callback(one_more)
+            future.add_done_callback(finished)
         try:
             points = sweep(
                 beam, omegas=finite_element_omegas, ramp_times=ramp_times, elements=elements,

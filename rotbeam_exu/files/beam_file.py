@@ -8,17 +8,17 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section
 from analytic.description import from_description
-from analytic.input_checks import positive, rotation_speed, whole_number
+from analytic.input_checks import positive, rotation_speed, shown, whole_number
 from analytic.loads import Load
 from analytic.parts import Line
 from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 
-from .beam_tables import BEAM, require_keys
+from .beam_tables import BEAM, NUMERICS, require_keys
 from .stations_file import blade_of_csv, text_of
 
 _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
@@ -111,6 +111,12 @@ def _number(name: str, value: object) -> Any:
     if name in ("element", "frame"):
         if not isinstance(value, str):
             raise TypeError(f"{name} must be a name in quotes, got {value!r}")
+        if value not in (names := get_args(NUMERICS.optional[name])):
+            more = "; a class of your own is for --element alone" if ":" in value else ""
+            known = ", ".join(map(repr, names))
+            raise ValueError(
+                f"unknown {name} {shown(value)} in [numerics]; known are {known}{more}"
+            )
         return value
     if name == "elements":
         return whole_number(name, value)

@@ -16,6 +16,8 @@ from analytic.loads import Load
 from analytic.parts import Line
 from analytic.section_shapes import SectionShape
 
+from ..runs import Element, Frame
+
 
 class Table(NamedTuple):
     """Keys of a table and the types of their values; a tuple of tables are alternatives."""
@@ -42,6 +44,9 @@ _BLADE = {
     "damping": (table_of(Damping), Table({"ratio": float}, {})),
     "line": table_of(Line),
 }
+NUMERICS = Table(
+    {}, {"element": Element, "elements": int, "step": float, "duration": float, "frame": Frame}
+)
 _DOCUMENT = Table(
     {},
     {
@@ -51,9 +56,7 @@ _DOCUMENT = Table(
             Table({"stations": _STATIONS}, _BLADE),
         ),
         "motion": Table({}, {"omega": float, "ramp_time": float}),
-        "numerics": Table(
-            {}, {"element": str, "elements": int, "step": float, "duration": float, "frame": str}
-        ),
+        "numerics": NUMERICS,
         "loads": list[Load],
     },
 )
@@ -130,7 +133,7 @@ def _schema_of(told: Any) -> dict[str, Any]:
             "additionalProperties": False,
         }
     if get_origin(told) is Literal:
-        return {"const": get_args(told)[0]}
+        return {"enum": list(get_args(told))}
     if not isinstance(told, tuple) and told in _TYPES:
         return {"type": _TYPES[told]}
     parts: Iterable[Any] = told if isinstance(told, tuple) else dict.fromkeys(get_args(told))

@@ -1,21 +1,23 @@
-"""Results on disk: netCDF that loads back equal, and CSV for reading; whole or not at all."""
+"""Results on disk: netCDF that loads back equal, and CSV tables; whole or not at all."""
 
 from __future__ import annotations
 
-import csv
+import errno
 import io
 import json
+import math
 import os
 import secrets
 import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..lazily import xr
+from .result_tables import tables_of, title
 
 OUTCOMES = frozenset(
     {"divergence_speed", "error", "failure", "residual", "sentence"}
@@ -28,8 +30,12 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     """Write a Dataset as netCDF (.nc) or CSV (.csv), by the ending of `path`, and return the path.
 
     netCDF is to be loaded: `load` gives back variables, coordinates, attributes, every bit of every
-    number; text comes back as NumPy's text, tuples as lists. CSV is for reading: one row per
-    sample, units in the header of the columns, and attributes in lines above that begin with "#".
+    number; text comes back as NumPy's text, tuples as lists. CSV is for spreadsheets: a header with
+    names and units, then one row per sample, with every digit. Variables of other dimensions are
+    another table: of a result with several, ``spin.csv`` is ``spin-q.csv``, ``spin-place.csv``
+    ..., and the path of the first is returned. A frequency over speed and mode has a second table,
+    ``-wide``, with a column per mode. ``spin.json`` lists the tables, the meaning of their columns,
+    and the attributes: beam, motion, theory, versions.
 
     Raises
     ------
@@ -52,10 +58,12 @@ def save(run: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     True
     """
     target = Path(path)
-    if target.suffix not in (".nc", ".csv"):
+    if target.suffix == ".csv":
+        return save_tables(run, target)[0]
+    if target.suffix != ".nc":
         raise ValueError(f"cannot write {target.name!r}: the ending must be .nc or .csv")
     try:
-        content = _table(run) if target.suffix == ".csv" else _netcdf(run)
+        content = _netcdf(run)
     except Exception as error:  # each layer has exceptions of its own for what it cannot keep
         raise ValueError(f"cannot write {target.name!r}: {error}") from error
     with whole_file(target) as partial:
@@ -86,49 +94,46 @@ def _plainly(data: xr.Dataset) -> xr.Dataset:
     return data
 
 
-def _table(data: xr.Dataset) -> bytes:
-    """Return a CSV table with every digit, one row per point of the grid in C order of the sizes.
-
-    What does not depend on a dimension repeats. Attributes are JSON in lines above.
-    """
-    out = io.StringIO()
-    for name, value in data.attrs.items():
-        entry = f"{name} = {json.dumps(plain(value), ensure_ascii=False, default=str)}"
-        out.writelines(f"# {line}\n" for line in entry.splitlines())
-    if data.sizes:
-        rows = data.to_dataframe(dim_order=list(data.sizes)).reset_index()
-    else:
-        rows = data.expand_dims("row").to_dataframe()
-    rows = rows.rename(columns={name: _title(data[name]) for name in rows})
-    csv.writer(out, lineterminator="\n").writerow(rows.columns)
-    # Text in quotes, for those who skip whatever follows a "#"; pandas would quote NaN as well.
-    quoting = csv.writer(out, lineterminator="\n", quoting=csv.QUOTE_NONNUMERIC)
-    quoting.writerows(rows.itertuples(index=False, name=None))
-    return out.getvalue().encode()
-
-
-def _title(array: xr.DataArray) -> str:
-    units = array.attrs.get("units", "")
-    return str(array.name) if units in ("", "1") else f"{array.name} [{units}]"
-
-
-def parts(data: xr.Dataset) -> dict[str, xr.Dataset]:
-    """Return the part of each set of dimensions, by the name of its first variable."""
-    groups: dict[tuple[str, ...], list[str]] = {}
-    for name, variable in data.data_vars.items():
-        groups.setdefault(tuple(map(str, variable.dims)), []).append(str(name))
-    return {names[0]: data[names] for names in groups.values()}
-
-
 def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
-    """Write a Dataset as CSV, one table for each set of dimensions, and return the paths.
+    """Write a Dataset as the tables of `save` and their JSON file, all or none; return the paths.
 
-    A single table takes the name of `path`; of several, each adds the name of its first variable.
+    A single table has the name of `path`; of several, each adds its own.
     """
-    tables = parts(data)
+    tables = tables_of(data)
     if len(tables) == 1:
-        return [save(data, path)]
-    return [save(part, path.with_name(f"{path.stem}-{name}.csv")) for name, part in tables.items()]
+        paths = [path]
+    else:
+        paths = [path.with_name(f"{path.stem}-{name}.csv") for name in tables]
+    contents = {
+        target: rows.to_csv(index=False, lineterminator="\n", na_rep="nan")
+        for target, rows in zip(paths, tables.values(), strict=True)
+    }
+    variables = [data[name] for name in data.variables]
+    long_names = {title(one): one.attrs.get("long_name", "") for one in variables}
+    about = {
+        "tables": {
+            target.name: {column: long_names.get(column, "") for column in rows}
+            for target, rows in zip(paths, tables.values(), strict=True)
+        },
+        "attributes": {name: _readable(value) for name, value in data.attrs.items()},
+        "grid": {name: _readable(values) for name, values in _grid(data).items()},
+    }
+    contents[path.with_suffix(".json")] = f"{_json(about)}\n"
+    with ExitStack() as files:
+        # In reverse: the last to be moved lists the tables.
+        for target in reversed(contents):
+            partial = files.enter_context(whole_file(target))
+            partial.write_text(contents[target], encoding="utf-8", newline="\n")
+    return list(contents)
+
+
+def _json(value: Any, margin: str = "\n") -> str:
+    """Return JSON for a reader: each entry of a dict in a line of its own, lists in one."""
+    if not isinstance(value, dict) or not value:
+        return json.dumps(value, ensure_ascii=False, default=str)
+    inner = f"{margin}  "
+    entries = (f"{inner}{_json(str(k))}: {_json(one, inner)}" for k, one in value.items())
+    return f"{{{','.join(entries)}{margin}}}"
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
@@ -158,7 +163,7 @@ def load(path: str | os.PathLike[str]) -> xr.Dataset:
     if source.suffix == ".csv":
         raise ValueError(
             f"{source} is a table for reading: load the netCDF file instead, or read the table by "
-            "pandas.read_csv(path, comment='#')"
+            "pandas.read_csv(path)"
         )
     try:
         # Units such as "seconds" are for people, not for numpy's timedelta64.
@@ -178,32 +183,59 @@ def differing_inputs(
 ) -> dict[str, tuple[object, object]]:
     """Return, by its name, each input in which a result, or its inputs alone, and a file differ.
 
-    Its values in both, None if missing; `file`, if it cannot be read; nothing if there is none.
-    Inputs are the attributes but `OUTCOMES`, and the coordinates of every dimension but time: the
-    grid of a sweep.
+    The file is netCDF, or the JSON of tables. Its values in both, None if missing; `file`, if it
+    cannot be read; nothing if there is none. Inputs are the attributes but `OUTCOMES`, and the
+    coordinates of every dimension but time: the grid of a sweep.
     """
     if not Path(path).exists():
         return {}
     try:
-        there = load(path)
-    except (OSError, ValueError) as error:
+        attributes, grid = _kept(Path(path))
+    except (OSError, ValueError, LookupError, TypeError) as error:
         return {"file": (None, str(error))}
-    mine, theirs = _inputs(run), _inputs(there)
-    if not isinstance(run, xr.Dataset):
+    if isinstance(run, xr.Dataset):
+        mine = _inputs({**run.attrs, **_grid(run)})
+    else:
         # The grid of what is not computed yet is known where it is among the inputs.
-        theirs = {name: theirs[name] for name in theirs if name in mine or name not in there.coords}
+        mine = _inputs(run)
+        grid = {name: values for name, values in grid.items() if name in mine}
+    theirs = _inputs({**attributes, **grid})
     return {
         name: (mine.get(name), theirs.get(name))
         for name in sorted(mine.keys() | theirs.keys())
-        if not _same(mine.get(name), theirs.get(name))
+        if mine.get(name) != theirs.get(name)
     }
 
 
-def _inputs(run: xr.Dataset | Mapping[str, object]) -> dict[str, object]:
-    if isinstance(run, xr.Dataset):
-        grid = {name: run[name] for name in run.dims if name in run.coords and name != "time"}
-        run = {**{str(k): v for k, v in run.attrs.items()}, **{str(k): v for k, v in grid.items()}}
-    return {name: plain(value) for name, value in run.items() if name not in OUTCOMES}
+def _kept(path: Path) -> tuple[dict[Any, Any], dict[Any, Any]]:
+    """Return the attributes and the grid of the result in a file."""
+    if path.suffix == ".json":
+        about = json.loads(path.read_text(encoding="utf-8"))
+        return about["attributes"], about["grid"]
+    there = load(path)
+    return there.attrs, _grid(there)
+
+
+def _grid(data: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Return the coordinates of every dimension but time."""
+    return {str(name): data[name] for name in data.dims if name in data.coords and name != "time"}
+
+
+def _inputs(values: Mapping[Any, object]) -> dict[str, object]:
+    return {str(k): _readable(value) for k, value in values.items() if k not in OUTCOMES}
+
+
+def _readable(value: Any) -> Any:
+    """Return a value as a reader's JSON has it: JSON in a text is read, NaN and inf are text."""
+    value = plain(value)
+    if isinstance(value, str) and value[:1] in ("{", "["):
+        with suppress(ValueError):
+            value = json.loads(value)
+    if isinstance(value, dict):
+        return {str(name): _readable(one) for name, one in value.items()}
+    if isinstance(value, list):
+        return [_readable(one) for one in value]
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def plain(value: Any) -> Any:
@@ -217,16 +249,11 @@ def plain(value: Any) -> Any:
     return value
 
 
-def _same(one: Any, other: Any) -> bool:
-    """Whether two plain values are equal, NaN to itself."""
-    if isinstance(one, list) and isinstance(other, list):
-        return len(one) == len(other) and all(map(_same, one, other))
-    return bool(one == other or (one != one and other != other))  # noqa: PLR0124
-
-
 @contextmanager
 def whole_file(target: Path) -> Iterator[Path]:
     """Give a path to write to; move it to `target` at the end, or remove it on any failure."""
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(target))
     partial = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
     try:
         yield partial

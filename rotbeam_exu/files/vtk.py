@@ -9,12 +9,14 @@ from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
-from analytic.input_checks import positive
 
 from ..lazily import xr
-from ..runs.shape import in_space
+from ..runs.attributes import beam_of
+from ..runs.shape import in_space, sides_of
 from .results import whole_file, writable_folder
 
 _LINE, _HEXAHEDRON = 3, 12  # VTK's numbers of cells
@@ -22,7 +24,7 @@ _CORNERS = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])  # ove
 
 
 def save_vtk(
-    data: xr.Dataset, path: Path, *, height: float | None = None, width: float | None = None
+    data: xr.Dataset, path: Path, *, height: ArrayLike | None = None, width: ArrayLike | None = None
 ) -> Path:
     """Write a blade over time as `path`, .pvd, and one .vtu for each time in a folder beside it.
 
@@ -36,14 +38,15 @@ def save_vtk(
         A run of `simulate` with stations, what `dataset_of` makes of a SpinUpResponse with points,
         or `rotbeam_exu.runs.shape.shape_of` of section loads.
     path : Path
-    height, width : float, optional
+    height, width : float or array_like (stations,), optional
         Of a rectangular section along its chord, which is in the plane of bending, and across it
         [m]. With both the blade is drawn as a body, with neither as a line.
 
     Raises
     ------
     ValueError
-        If the ending is another, there are no sections at two stations, or one side is missing.
+        If the ending is another, there are no sections at two stations, one side is missing, or it
+        varies and one number is given for it.
 
     Examples
     --------
@@ -67,7 +70,7 @@ def save_vtk(
             "at least two along the blade"
         )
     data = data if "time" in data.dims else data.expand_dims("time")
-    offsets = corners(height, width)
+    offsets = corners(beam_of(data.attrs), data["station"].to_numpy(), height, width)
     folder, sets = path.with_suffix(""), ""
     writable_folder(folder)
     for n, standing in enumerate(zip(*in_space(data), strict=True)):
@@ -80,22 +83,29 @@ def save_vtk(
     return path
 
 
-def corners(height: float | None, width: float | None) -> FloatArray:
-    """Return the corners of a section from its axis [m], (4, 2); without sides the axis alone."""
+def corners(
+    beam: AnyBlade, at: FloatArray, height: ArrayLike | None, width: ArrayLike | None
+) -> FloatArray:
+    """Return the corners of the sections from their axis [m], (stations, 4, 2).
+
+    Without sides the axis alone, (stations, 1, 2).
+    """
     if height is None and width is None:
-        return np.zeros((1, 2))
+        return np.zeros((at.size, 1, 2))
     if height is None or width is None:
         missing = "height" if height is None else "width"
         raise ValueError(f"a body has a height and a width: give {missing} too, or leave both out")
-    sides = positive("height", height, "m"), positive("width", width, "m")
-    return np.asarray(_CORNERS * sides)
+    sides = sides_of(beam.blade, at, height=height, width=width)
+    if not sides.all():
+        raise ValueError("a body has a height and a width above zero: leave both out for a line")
+    return np.asarray(_CORNERS * sides[:, None])
 
 
 def _grid(data: xr.Dataset, place: FloatArray, section: FloatArray, offsets: FloatArray) -> str:
-    """Return a .vtu of points at `offsets` (corners, 2) from the axis, and cells between them."""
-    corners, cells = len(offsets), len(place) - 1
-    curvature, (y, z) = data["curvature"].to_numpy(), offsets.T
-    bent = np.outer(curvature[:, 1], z) - np.outer(curvature[:, 2], y)
+    """Return a .vtu of points at `offsets` (stations, corners, 2) from the axis, and its cells."""
+    corners, cells = offsets.shape[1], len(place) - 1
+    _, about_chord, about_thickness = data["curvature"].to_numpy().T[..., None]
+    bent = about_chord * offsets[..., 1] - about_thickness * offsets[..., 0]
     values = {name: data[name].to_numpy() for name in ("station", "force", "moment")}
     values |= {
         name: section[..., k] for k, name in enumerate(data["section_axis"].to_numpy().tolist())

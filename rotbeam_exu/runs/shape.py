@@ -6,17 +6,21 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from analytic import Blade
 from analytic.arrays import FloatArray, evaluated, slope_of
 from analytic.exact.beam.kinematics import in_plane_of_bending
 from analytic.exact.beam.state import SectionLoads
 from analytic.exact.space.unit import space_unit, trapeze_of
-from analytic.input_checks import not_negative
+from analytic.input_checks import along
 from analytic.theory import BERNOULLI_EULER
 
 from ..labels import dataset
 from ..lazily import xr
 from .attributes import beam_attributes, beam_of
+
+_ALIKE = 0.01  # of a side, by which rounded stiffnesses may vary
 
 
 def shape_of(found: SectionLoads) -> xr.Dataset:
@@ -78,7 +82,7 @@ def in_space(data: xr.Dataset) -> tuple[FloatArray, FloatArray]:
     return place, turn[:, None] @ np.asarray(data.get("section", np.eye(3)))
 
 
-def outer_strain(data: xr.Dataset, height: float, width: float = 0.0) -> xr.DataArray:
+def outer_strain(data: xr.Dataset, height: ArrayLike, width: ArrayLike = 0.0) -> xr.DataArray:
     """Return the largest strain of rectangular sections over time and station, in a corner.
 
     |ε| + |κ| h/2, in space + |κ| b/2 of the other curvature. Times E it is the largest stress.
@@ -87,27 +91,61 @@ def outer_strain(data: xr.Dataset, height: float, width: float = 0.0) -> xr.Data
     ----------
     data : Dataset
         With stations.
-    height, width : float
+    height, width : float or array_like (stations,)
         Of the section along its chord, which is in the plane of bending, and across it [m].
+
+    Raises
+    ------
+    ValueError
+        If one number is given for a blade whose height or width varies.
     """
-    sides = not_negative("width", width, "m"), not_negative("height", height, "m")
-    bent = (abs(data["curvature"].isel(section_axis=[1, 2])) * sides).sum("section_axis")
+    at = data["station"]
+    sides = sides_of(beam_of(data.attrs).blade, at.to_numpy(), width=width, height=height)
+    by_axis = xr.DataArray(sides.reshape(*at.shape, 2), dims=(*at.dims, "section_axis"))
+    bent = (abs(data["curvature"].isel(section_axis=[1, 2])) * by_axis).sum("section_axis")
     strain: xr.DataArray = abs(data["strain"]) + 0.5 * bent
     return strain.assign_attrs(units="1", long_name="largest strain in the section")
+
+
+def sides_of(blade: Blade, at: FloatArray, **sides: ArrayLike) -> FloatArray:
+    """Return `height` and `width` of rectangular sections at stations [m], (stations, sides).
+
+    The height of a rectangle goes with √(EI/EA), the width with that of the other plane or, where
+    it is not known, with EA over the height. One number is refused where this varies.
+    """
+    at, columns = np.atleast_1d(at), []
+    for name, given in sides.items():
+        side = along(name, given, at.size, "m")
+        if side.min() < 0.0:
+            raise ValueError(f"{name} must not be negative, got {side.min():g} m")
+        relative = _relative(blade, name, at)
+        if np.ndim(given) == 0 and side.any() and np.ptp(relative) > _ALIKE:
+            raise ValueError(
+                f"the {name} of this blade varies along it, by its stiffness to "
+                f"{relative.min():.3g} of its largest: give {name} at each of the {at.size} "
+                "stations, in an array"
+            )
+        columns.append(side)
+    return np.stack(columns, axis=-1)
+
+
+def _relative(blade: Blade, name: str, at: FloatArray) -> FloatArray:
+    """Return the height or the width of a full rectangle, over its largest on the blade."""
+    x = np.union1d(at / blade.length, np.linspace(0.0, 1.0, 41))
+    soft, EA = _flexibility(blade, x), evaluated(blade.unit.axial, x)
+    height, across = np.sqrt(1.0 / (soft[:, 5, 5] * EA)), soft[:, 4, 4]
+    if name == "height":
+        side = height
+    else:
+        side = np.sqrt(1.0 / (across * EA)) if across.all() else EA / height
+    return np.asarray(side / side.max())
 
 
 def _strains(found: SectionLoads, force: FloatArray, moment: FloatArray) -> FloatArray:
     """Return ε, γ and κ [1/m], (..., stations, 6), that force and moment cause."""
     blade, EI, L = found.blade, found.blade.bending_stiffness, found.blade.length
     at, section = found.stations / L, blade.blade.section
-    if section.knows_space:
-        soft = space_unit(blade).flexibility(at, BERNOULLI_EULER, blade.slenderness)
-    else:
-        out: Any = section.out_of_plane
-        soft = np.zeros((at.size, 6, 6))
-        soft[:, 0, 0] = blade.slenderness / evaluated(blade.unit.axial, at)
-        soft[:, 5, 5] = 1.0 / evaluated(blade.unit.bending, at)
-        soft[:, 4, 4] = soft[:, 5, 5] / out.bending_ratio if out else 0.0
+    soft = _flexibility(blade.blade, at)
     loads = np.concatenate((force * L**2 / EI, moment * L / EI), axis=-1)
     shortening: Any = 0.0
     if found.trapeze and section.knows_space:
@@ -121,3 +159,18 @@ def _strains(found: SectionLoads, force: FloatArray, moment: FloatArray) -> Floa
     strains = (soft @ loads[..., None])[..., 0]
     strains[..., 0] -= shortening
     return np.asarray(strains / np.repeat([1.0, L], 3))
+
+
+def _flexibility(blade: Blade, x: FloatArray) -> FloatArray:
+    """Return the flexibility at `x` over L, (places, 6, 6), without dimensions.
+
+    What is not known out of the plane is zero.
+    """
+    if blade.section.knows_space:
+        return space_unit(blade).flexibility(x, BERNOULLI_EULER, blade.slenderness)
+    out = blade.section.out_of_plane
+    soft = np.zeros((x.size, 6, 6))
+    soft[:, 0, 0] = blade.slenderness / evaluated(blade.unit.axial, x)
+    soft[:, 5, 5] = 1.0 / evaluated(blade.unit.bending, x)
+    soft[:, 4, 4] = soft[:, 5, 5] / out.bending_ratio if out else 0.0
+    return soft

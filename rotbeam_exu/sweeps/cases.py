@@ -10,7 +10,7 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator, Mapping
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -120,16 +120,34 @@ def worker_pool(executor: Executor | None, jobs: int | None, most: int) -> Itera
     cores = os.cpu_count() or 1
     workers = min(cores if jobs is None else whole_number("jobs", jobs), max(most, 1))
     spawn = multiprocessing.get_context("spawn")
-    own = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_obey_parent)
+    own: Any = _Processes(workers, mp_context=spawn, initializer=_obey_parent)
     try:
         yield own
     except BaseException:
-        # Do not wait for what nobody asks for any more.
-        for process in list(getattr(own, "_processes", None) or {}):
-            own._processes[process].terminate()
+        # Do not wait for what nobody asks for any more. What waits is dropped first: the pool's
+        # thread fails whatever it still has when a process dies, which a canceled future refuses.
+        # It does so only while the pool lives.
+        processes, thread = list((own._processes or {}).values()), own._executor_manager_thread
         own.shutdown(wait=False, cancel_futures=True)
+        for process in processes:
+            process.terminate()
+        if thread is not None:
+            thread.join()
         raise
     own.shutdown()
+
+
+class _Processes(ProcessPoolExecutor):
+    """Processes that Ctrl-C does not meet while they start: they inherit that it is blocked."""
+
+    def submit(self, *task: Any, **options: Any) -> Future[Any]:
+        if not hasattr(signal, "pthread_sigmask"):  # Windows
+            return super().submit(*task, **options)
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            return super().submit(*task, **options)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _obey_parent() -> None:

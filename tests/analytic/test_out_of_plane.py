@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, Ellipse, Rectangle, Section, Tube
+from analytic import Beam, Blade, Ellipse, Rectangle, RotbeamWarning, Section, Tube
 from analytic.description import describe, from_description
 from analytic.section import OutOfPlane
-from analytic.section_shapes import Box, Gyration, SectionShape
+from analytic.section_shape import Count, Gyration, Length, SectionShape
+from analytic.section_shapes import Box
 from rotbeam_exu.cli.options import SectionOptions
 
 BEAM = Beam.reference()
@@ -117,7 +118,7 @@ def test_what_the_sentences_advise_works():
 class Diamond(SectionShape):
     """A square that stands on its edge."""
 
-    side: float | None = None
+    side: Length | None = None
 
     def _fitting(self, own):
         return {"side": math.sqrt(12.0 * own.squared)}
@@ -146,3 +147,83 @@ def test_a_new_shape_is_one_class():
             BEAM.with_shape(shape)
     with pytest.raises(TypeError, match="a SectionShape is needed, got 'Tube'"):
         UNIT.with_shape("Tube")
+
+
+class OfSides:
+    """A full regular polygon of so many sides, with a J that is only near."""
+
+    def _shares(self):
+        """Return A/R² and I/R⁴."""
+        angle = 2.0 * math.pi / self.sides
+        area = 0.5 * self.sides * math.sin(angle)
+        return area, area * (2.0 + math.cos(angle)) / 12.0
+
+    def _fitting(self, own):
+        area, inertia = self._shares()
+        return {"radius": math.sqrt(own.squared * area / inertia)}
+
+    def _gyration(self, lengths):
+        (area, inertia), r = self._shares(), lengths["radius"]
+        if self.sides < 3:
+            raise ValueError(f"sides must be at least 3, got {self.sides}")
+        return Gyration(squared=inertia / area * r**2, area=area * r**2)
+
+    def _ratios(self, lengths):
+        return 1.0, 2.0
+
+    def _shear(self, lengths):
+        return 0.9, 0.9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Polygon(OfSides, SectionShape):
+    """A polygon that says what its fields are."""
+
+    sides: Count = 6
+    radius: Length | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unclear(OfSides, SectionShape):
+    """A polygon that does not."""
+
+    sides: int = 6
+    radius: Length | None = None
+
+
+def test_fields_of_a_shape_say_what_they_are():
+    """A whole number is neither converted to a length nor asked of a blade as one."""
+    many = Polygon(sides=96, radius=0.1).of_material(7e10, 2700.0)
+    circle = Ellipse(height=0.2, width=0.2).of_material(7e10, 2700.0)
+    assert many[0][0] == pytest.approx(circle[0][0], rel=1e-3)
+    assert many[0][5] == pytest.approx(circle[0][5], rel=2e-3)
+    assert UNIT.with_shape(Polygon()).is_planar
+    for sides in (6.5, True, "6", None):
+        with pytest.raises(TypeError, match="sides must be a whole number, got"):
+            Polygon(sides=sides, radius=0.1)
+    with pytest.raises(ValueError, match="sides must be at least 1, got -3$"):
+        Polygon(sides=-3)
+    with pytest.raises(ValueError, match="sides must be at least 3, got 2"):
+        Polygon(sides=2, radius=0.1)
+    with pytest.raises(ValueError, match=r"along a blade needs radius \[m\]"):
+        Polygon().of_material(7e10, 2700.0)
+    with pytest.raises(TypeError, match="Unclear does not say what sides is: let its type be Leng"):
+        Unclear()
+
+
+@pytest.mark.parametrize(
+    ("made", "sentence"),
+    [
+        (lambda: Tube(radius=0.01, wall=0.03), "wall of a tube is at most twice its mean radius"),
+        (lambda: Box(height=0.1, width=0.2, wall=0.06), "overlap: take wall below 0.05 m"),
+        (lambda: Rectangle(ratio=0.0), "ratio must be positive"),
+    ],
+)
+def test_a_shape_that_is_none_is_refused_where_it_is_made(made, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        made()
+
+
+def test_a_wall_above_the_radius_is_asked_about():
+    with pytest.warns(RotbeamWarning, match=r"between the radii 0.005 and 0.035 m"):
+        Tube(radius=0.02, wall=0.03)

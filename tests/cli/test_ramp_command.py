@@ -26,7 +26,7 @@ def test_tables_and_files(call, reached, tmp_path):
         # Closed form, with the backbone, exact and by 4 elements.
         assert numbers == pytest.approx([numbers[2]] * len(numbers), rel=0.15)
     name = "ramp-omega-2-longest-4.6"
-    kinds = {f"{name}{end}" for end in (".nc", ".png", ".pdf")}
+    kinds = {f"{name}{end}" for end in (".nc", ".json", ".png", ".pdf")}
     kinds |= {f"{name}-{what}.csv" for what in ("linear", "exact", "finite_element", "quiet")}
     assert {path.name for path in tmp_path.iterdir()} == kinds
     # One path a line, whole.

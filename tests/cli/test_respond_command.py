@@ -43,9 +43,9 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
     assert float(rows[3][3]) == pytest.approx(np.pi, abs=1e-2)
     name = "response-omega-6-ripple-0.002-from-3.7-to-3.76"
     assert {path.name for path in tmp_path.iterdir()} == {
-        f"{name}.{kind}" for kind in ("nc", "csv", "png", "pdf")
+        f"{name}.{kind}" for kind in ("nc", "csv", "json", "png", "pdf")
     }
-    data, table = load(tmp_path / f"{name}.nc"), pd.read_csv(tmp_path / f"{name}.csv", comment="#")
+    data, table = load(tmp_path / f"{name}.nc"), pd.read_csv(tmp_path / f"{name}.csv")
     xr.testing.assert_equal(data, dataset_of(folded))
     assert set(table["phase [rad]"]) == set(folded.phase)
     assert (data["cosine"] - 1j * data["sine"]).to_numpy() == pytest.approx(folded.harmonics)

@@ -49,7 +49,7 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
     told = [line for line in out.splitlines() if line.startswith("written ")]
     assert sorted(told) == sorted(f"written {path}" for path in tmp_path.iterdir())
     name = "stability-rectangle-3-omega-2-mode-1"
-    kinds = ("nc", "csv", "png", "pdf")
+    kinds = ("nc", "csv", "json", "png", "pdf")
     assert {path.name for path in tmp_path.iterdir()} == {f"{name}.{kind}" for kind in kinds}
     data = load(tmp_path / f"{name}.nc")
     assert data["growth_rate"].to_numpy() == pytest.approx(exact.growth_rate)
@@ -60,7 +60,7 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
     assert np.isinf(data["limit"])
     assert data["limit_growth"] == 0.01
     assert data["tongue_low"].item() == pytest.approx(0.29, abs=0.01)
-    table = pd.read_csv(tmp_path / f"{name}.csv", comment="#", keep_default_na=False)
+    table = pd.read_csv(tmp_path / f"{name}.csv", keep_default_na=False)
     assert {"sum resonance", ""} == set(table["kind"])
 
 

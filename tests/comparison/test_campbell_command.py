@@ -36,7 +36,8 @@ def test_all_three_families_of_a_known_section_and_their_figure(beam, capsys, tm
     blade = beam.blade.with_shape(Rectangle(ratio=18.5))
     frequencies = [linear_modes(blade, 12.0, 1, plane=p).frequencies[0] for p in PLANES]
     written = sorted(path.name for path in tmp_path.iterdir())
-    ends = ("-crossing_mode.csv", "-frequency.csv", ".nc", ".pdf", ".png")
+    ends = ("-crossing_mode.csv", "-frequency-wide.csv", "-frequency.csv")
+    ends += (".json", ".nc", ".pdf", ".png")
     assert written == [f"campbell-rectangle-18.5{end}" for end in ends]
     assert all(name in printed for name in written)
     # Torsion meets 6ω.

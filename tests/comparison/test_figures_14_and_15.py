@@ -23,7 +23,7 @@ def lines(beam):
 
 
 def golden(name):
-    return pd.read_csv(GOLDEN / f"{name}.csv", comment="#")
+    return pd.read_csv(GOLDEN / f"{name}.csv")
 
 
 def test_fre_is_the_best_of_the_paper_by_cancellation_and_frm_is_right(lines):

@@ -168,7 +168,7 @@ def test_figure_13_mode_straightens_with_speed(data_of):
 def test_a_figure_on_the_command_line(call, tmp_path):
     call("figure", "13", "--style", "grey", "--out", tmp_path)
     written = {path.suffix for path in tmp_path.iterdir()}
-    assert written == {".nc", ".csv", ".pdf", ".svg", ".txt"}
+    assert written == {".nc", ".csv", ".json", ".pdf", ".svg", ".txt"}
     words = (tmp_path / "figure_13.txt").read_text()
     # What is drawn comes first, and of which beam.
     claim = figures.PAPER_FIGURES[13].claim

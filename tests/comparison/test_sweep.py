@@ -6,8 +6,15 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
-from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
+from concurrent.futures import (
+    CancelledError,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +29,7 @@ from rotbeam_exu import SimulationError, simulate, steady_oscillation, sweep
 from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.sweeps import grid as sweeps
+from rotbeam_exu.sweeps.cases import worker_pool
 
 SMALL = {"omegas": [4.0, 6.0], "ramp_times": [3.0, 2.0]}
 COARSE = {"elements": 2, "step": 1e-2, "duration": 9.0}
@@ -177,6 +185,49 @@ def test_any_executor_will_do(beam, serial):
     with ThreadPoolExecutor(1) as pool:
         found = sweep(beam, **SMALL, **COARSE, executor=pool)
     xr.testing.assert_identical(found, serial)
+
+
+def idle():
+    time.sleep(60.0)
+
+
+@pytest.mark.parametrize("late", [False, True])
+def test_an_interrupted_pool_ends_its_processes_and_its_thread_says_nothing(monkeypatch, late):
+    """A process that dies while canceled work waits made the pool's thread end in a traceback."""
+    said, shutdown = [], ProcessPoolExecutor.shutdown
+    monkeypatch.setattr(threading, "excepthook", lambda given: said.append(given.exc_value))
+    if late:  # as on a busy machine: whatever is ended before has ended
+
+        def after_them(pool, **options):
+            for process in list(pool._processes.values()):
+                process.join(0.3)
+            time.sleep(0.1)
+            shutdown(pool, **options)
+
+        monkeypatch.setattr(ProcessPoolExecutor, "shutdown", after_them)
+    with pytest.raises(KeyboardInterrupt), worker_pool(None, 1, 9) as pool:
+        futures = [pool.submit(idle) for _ in range(9)]
+        processes = list(pool._processes.values())
+        while not futures[1].running():  # one begins, one is ready, seven wait
+            time.sleep(0.01)
+        try:
+            raise KeyboardInterrupt
+        finally:
+            for future in futures:
+                future.cancel()
+    assert not any(process.is_alive() for process in processes)
+    assert said == []
+
+
+def test_ctrl_c_does_not_meet_a_process_that_starts():
+    """A terminal sends it to all, also to one that has not yet chosen what to do with it."""
+    with pytest.raises(KeyboardInterrupt), worker_pool(None, 1, 1) as pool:
+        pool.submit(idle)
+        (process,) = pool._processes.values()
+        os.kill(process.pid, signal.SIGINT)
+        process.join(0.5)
+        assert process.is_alive()
+        raise KeyboardInterrupt
 
 
 def living(group):

@@ -25,10 +25,10 @@ def test_table_files_and_a_failed_case_whose_sentence_is_whole(call, tmp_path, m
     assert f"{len(failed)} of 2 spin-ups failed; why is above, and as `failure` in" in error
     assert "nan" not in out
     assert [line for line in out.splitlines() if line.startswith("written ")] == [
-        f"written {tmp_path}/sweep-cable-2.{kind}" for kind in ("nc", "csv")
+        f"written {tmp_path}/sweep-cable-2.{kind}" for kind in ("nc", "csv", "json")
     ]
     text = (tmp_path / "sweep-cable-2.csv").read_text()
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    lines = text.splitlines()
     assert lines[0].startswith("omega [rad/s],ramp_time [s],amplitude,")
     assert len(lines) == 3
     # Without a terminal each finished case is a line on standard error.

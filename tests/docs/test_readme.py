@@ -43,7 +43,7 @@ def test_the_toml_block_is_the_reference_beam(beam, tmp_path):
 
 def golden_points(mesh):
     """Amplitude, and ω_NL over the mesh's own ω_n, of the 24 spin-ups, by speed."""
-    golden = pd.read_csv(ROOT / "tests/comparison/golden/figure_14-amplitude.csv", comment="#")
+    golden = pd.read_csv(ROOT / "tests/comparison/golden/figure_14-amplitude.csv")
     for omega, here in golden[golden["mesh"] == mesh].groupby("omega [rad/s]"):
         yield omega, here["amplitude"].to_numpy(), here["ratio"].to_numpy()
 

@@ -1,6 +1,14 @@
 """What the page is made of and the command that writes it, without a browser."""
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import Executor, Future
+from contextlib import nullcontext
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +20,8 @@ from rotbeam_exu.explorer import data as room
 from rotbeam_exu.explorer import explorer_data, explorer_page
 from tests.beams import REED_TOML
 
+ROOT = Path(__file__).parents[2]
+
 
 def test_uneven_sliders_and_ramps_that_outlast_the_page_are_refused():
     for options, sentence in (
@@ -22,6 +32,35 @@ def test_uneven_sliders_and_ramps_that_outlast_the_page_are_refused():
     ):  # fmt: skip
         with pytest.raises(ValueError, match=sentence):
             explorer_data(**options)
+
+
+class OneOfMany(Executor):
+    """Has done the first task, failed in the second, and begins no other."""
+
+    def __init__(self):
+        self.futures = []
+
+    def submit(self, *task):
+        self.futures.append(future := Future())
+        if len(self.futures) == 1:
+            future.set_result("an orbit")
+        elif len(self.futures) == 2:
+            future.set_exception(RuntimeError("died"))
+        return future
+
+
+def test_what_ctrl_c_cancels_is_not_counted_as_done(monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    counted, pool = [], OneOfMany()
+    monkeypatch.setattr(room, "worker_pool", lambda *_: nullcontext(pool))
+    monkeypatch.setattr(room, "sweep", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        explorer_data(progress=lambda done, total: counted.append(done))
+    assert len(pool.futures) > 100
+    assert all(future.done() for future in pool.futures)
+    assert counted == [1]
 
 
 @pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
@@ -70,3 +109,32 @@ def test_the_whole_page_is_small_enough(tmp_path):
     out = tmp_path / "explorer.html"
     main(["explore", "--out", str(out), "--jobs", "2"])
     assert 1e6 < out.stat().st_size < 6e6
+
+
+def started_by(parent):
+    """Return the processes that one has started."""
+    return Path(f"/proc/{parent}/task/{parent}/children").read_text().split()
+
+
+# The first child tracks the semaphores, the second is a worker that has not begun.
+@pytest.mark.parametrize("instant", ["a worker starts", "a piece is done"])
+@pytest.mark.slow
+def test_ctrl_c_of_a_terminal_is_one_sentence(tmp_path, instant):
+    """It goes to the command and to its workers, wherever these are."""
+    job = subprocess.Popen(
+        [sys.executable, "-m", "rotbeam_exu.cli", "explore", "--jobs", "2"],
+        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)}, start_new_session=True,
+        text=True, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL,
+        # A shell's background ignores Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509
+    )  # fmt: skip
+    if instant == "a worker starts":
+        while len(started_by(job.pid)) < 2:
+            time.sleep(0.005)
+    else:
+        assert "exact orbits and spin-ups: " in job.stderr.readline()
+    os.killpg(job.pid, signal.SIGINT)
+    *lines, last = job.communicate(timeout=60)[1].splitlines()
+    assert (job.returncode, last) == (130, "rotbeam: interrupted; nothing was written")
+    assert all(line.startswith("exact orbits and spin-ups: ") for line in lines)
+    assert not list(tmp_path.iterdir())

@@ -36,8 +36,8 @@ def fits(value, told):
     """Whether a value is as a schema says: as much of JSON schema as ours has."""
     if "anyOf" in told:
         return any(fits(value, one) for one in told["anyOf"])
-    if "const" in told:
-        return value == told["const"]
+    if "enum" in told:
+        return value in told["enum"]
     kinds = [told["type"]] if isinstance(told["type"], str) else told["type"]
     if isinstance(value, bool) or not any(isinstance(value, TYPES[kind]) for kind in kinds):
         return False

@@ -21,7 +21,13 @@ def test_the_script_is_the_command_that_writes_four_files(tmp_path, capsys, monk
     monkeypatch.setattr(sys, "argv", [str(script), *SHORT, "--out", str(tmp_path)])
     runpy.run_path(str(script), run_name="__main__")
     assert "nonlinear effect" in capsys.readouterr().out
-    assert sorted(path.suffix for path in tmp_path.iterdir()) == [".csv", ".nc", ".pdf", ".png"]
+    assert sorted(path.suffix for path in tmp_path.iterdir()) == [
+        ".csv",
+        ".json",
+        ".nc",
+        ".pdf",
+        ".png",
+    ]
     assert load(next(tmp_path.glob("*.nc"))).attrs["elements"] == 4
 
 

@@ -10,7 +10,8 @@ import xarray as xr
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from rotbeam_exu import load, save, simulate
+from analytic import SpinUp, campbell, spin_up_response
+from rotbeam_exu import dataset_of, load, save, simulate
 from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.fem.simulation import run_case
 from rotbeam_exu.files.results import differing_inputs, save_tables, whole_file
@@ -43,22 +44,34 @@ def test_every_variable_has_unit_and_name(run):
         assert {"units", "long_name"} <= set(variable.attrs)
 
 
-def header(path):
-    """The lines of a table above its titles."""
-    return [line for line in path.read_text(encoding="utf-8").split("\n") if line.startswith("#")]
-
-
-def test_csv_holds_every_sample_with_units_and_says_what_was_run(run, tmp_path):
+def test_csv_is_a_plain_table_and_a_json_file_says_what_was_run(run, tmp_path):
     path = save(run, tmp_path / "run.csv")
-    titles, lines = pd.read_csv(path, comment="#").columns, header(path)
-    assert titles[:3].tolist() == ["time [s]", "q [m]", "q_dot [m/s]"]
-    table = np.loadtxt(path, delimiter=",", skiprows=len(lines) + 1)
+    assert path.read_text(encoding="utf-8").startswith("time [s],q [m],q_dot [m/s],")
+    table = pd.read_csv(path)
     # Every digit.
-    assert np.array_equal(table[:, 0], run["time"])
-    assert np.array_equal(table[:, 1], run["q"])
-    assert {"# beam_length = 8.0", '# element = "cable"', "# step = 0.005"} <= set(lines)
-    assert any(line.startswith("# versions = ") and "exudyn" in line for line in lines)
-    assert len(lines) == len(run.attrs)
+    for name in ("time", "q"):
+        title = f"{name} [{run[name].attrs['units']}]"
+        assert np.array_equal(table[title], run[name])
+    about = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
+    assert list(about["tables"]["run.csv"]) == list(table)
+    assert about["tables"]["run.csv"]["q [m]"] == run["q"].attrs["long_name"]
+    known = about["attributes"]
+    assert (known["beam_length"], known["element"], known["step"]) == (8.0, "cable", 0.005)
+    assert known["versions"] == json.loads(run.attrs["versions"])
+    assert known.keys() == run.attrs.keys()
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_spin_up_along_the_blade_is_a_table_for_each_set_of_dims(beam, tmp_path):
+    """Not every number at every station, direction and axis of the section: 18 MB of repetition."""
+    motion, points = SpinUp(omega=4.0, ramp_time=1.0), [0.0, 4.0, 8.0]
+    data = dataset_of(spin_up_response(beam, motion, [0.0, 0.5, 1.0], points=points))
+    assert save(data, tmp_path / "spin.csv") == tmp_path / "spin-q.csv"
+    tables = {path.stem: pd.read_csv(path) for path in tmp_path.glob("*.csv")}
+    rows = {name.removeprefix("spin-"): len(table) for name, table in tables.items()}
+    assert rows == {"q": 3, "place": 27, "section": 81, "force": 27, "strain": 9}
+    last = tables["spin-place"].query("`time [s]` == 1 and `station [m]` == 8")
+    assert last["place [m]"].tolist() == data.place.values[-1, -1].tolist()
 
 
 TEXT = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=8)
@@ -122,14 +135,23 @@ def test_an_attribute_that_netcdf_lacks_is_refused(tmp_path, law):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_table_says_attributes_of_any_kind_in_lines_that_are_not_read(tmp_path):
-    attrs = {"a": None, "b": {"k": [1.0, [True, 2]]}, "two\nlines": "x\ny", "d": 1j, "e": np.eye(2)}
+def test_attributes_of_any_kind_stand_in_the_json_file_as_a_reader_needs_them(tmp_path):
+    attrs = {
+        "a": None, "b": '{"k": [1.0, [true, NaN]]}', "two\nlines": "x\ny", "d": 1j, "e": np.eye(2),
+        "f": "{no json}", "g": np.inf,
+    }  # fmt: skip
     path = save(xr.Dataset({"v": ("x", [1.0])}, attrs=attrs), tmp_path / "x.csv")
-    assert header(path) == [
-        "# a = null", '# b = {"k": [1.0, [true, 2]]}', "# two", '# lines = "x\\ny"', '# d = "1j"',
-        "# e = [[1.0, 0.0], [0.0, 1.0]]",
-    ]  # fmt: skip
-    assert pd.read_csv(path, comment="#").to_numpy().tolist() == [[0.0, 1.0]]
+
+    def refused(constant):
+        pytest.fail(f"{constant} is no JSON")
+
+    text = path.with_suffix(".json").read_text(encoding="utf-8")
+    assert json.loads(text, parse_constant=refused)["attributes"] == {
+        "a": None, "b": {"k": [1.0, [True, "nan"]]}, "two\nlines": "x\ny", "d": "1j",
+        "e": [[1.0, 0.0], [0.0, 1.0]], "f": "{no json}", "g": "inf",
+    }  # fmt: skip
+    assert '    "e": [[1.0, 0.0], [0.0, 1.0]],' in text.splitlines()
+    assert pd.read_csv(path).to_numpy().tolist() == [[0.0, 1.0]]
 
 
 def test_a_table_has_a_row_for_each_point_of_the_grid(tmp_path):
@@ -147,15 +169,19 @@ def test_a_table_has_a_row_for_each_point_of_the_grid(tmp_path):
     )
     for dims in (["y", "x"], ["x", "y"]):
         given = data.transpose(*dims)
-        path = save(given, tmp_path / "x.csv")
-        assert ",nan," in path.read_text(encoding="utf-8"), "no text in quotes"
-        table = pd.read_csv(path, comment="#", parse_dates=["day"])
-        # By the other library's own way.
-        wanted = given.to_dataframe(dim_order=list(given.sizes)).reset_index()
-        pd.testing.assert_frame_equal(
-            table, wanted, check_like=True, check_exact=True, check_dtype=False
-        )
+        save(given, tmp_path / "x.csv")
+        for names in (["q"], ["kind"], ["passed", "day"]):
+            table = pd.read_csv(
+                tmp_path / f"x-{names[0]}.csv", parse_dates=["day"] if "day" in names else False
+            )
+            part = given[names]
+            # By the other library's own way.
+            wanted = part.to_dataframe(dim_order=list(part.sizes)).reset_index()
+            pd.testing.assert_frame_equal(
+                table, wanted, check_like=True, check_exact=True, check_dtype=False
+            )
         assert table["passed"].dtype == bool
+        assert pd.read_csv(tmp_path / "x-count.csv").to_dict("list") == {"count": [2**53 + 1]}
 
 
 def test_seconds_are_no_time_deltas_and_fill_values_of_another_file_not_taken_over(tmp_path):
@@ -188,8 +214,8 @@ def test_a_table_is_not_loaded_and_both_remedies_work(small, tmp_path):
         ValueError, match=r"small\.csv is a table for reading: load the netCDF"
     ) as e:
         load(path)
-    assert "pandas.read_csv(path, comment='#')" in str(e.value)
-    assert pd.read_csv(path, comment="#").shape == (20, 2)
+    assert "pandas.read_csv(path)" in str(e.value)
+    assert pd.read_csv(path).shape == (20, 2)
     xr.testing.assert_identical(load(save(small, path.with_suffix(".nc"))), small)
 
 
@@ -200,12 +226,35 @@ def test_several_dimensions_are_several_tables(tmp_path):
         attrs={"element": "cable"},
     )
     paths = save_tables(data, tmp_path / "t.csv")
-    assert [path.name for path in paths] == ["t-a.csv", "t-b.csv"]
-    assert [header(path) for path in paths] == 2 * [['# element = "cable"']]
-    assert pd.read_csv(paths[1], comment="#").columns.tolist() == ["y", "b [m]"]
-    table = pd.read_csv(paths[0], comment="#")
+    assert [path.name for path in paths] == ["t-a.csv", "t-b.csv", "t.json"]
+    assert pd.read_csv(paths[1]).columns.tolist() == ["y", "b [m]"]
+    table = pd.read_csv(paths[0])
     assert table.columns.tolist() == ["x", "y", "a"]
     assert table["x"].tolist() == ["one", "one", "two#", "two#"]
+
+
+def test_frequencies_over_speed_and_mode_have_a_column_per_mode_too(beam, tmp_path):
+    found = campbell(beam, [0.0, 6.0], count=2, orders=1)
+    save(dataset_of(found), tmp_path / "c.csv")
+    wide = pd.read_csv(tmp_path / "c-frequency-wide.csv")
+    assert list(wide) == ["omega [rad/s]", "lag 1 [rad/s]", "lag 2 [rad/s]"]
+    assert np.array_equal(wide.to_numpy()[:, 1:], found.frequencies)
+    long = pd.read_csv(tmp_path / "c-frequency.csv")
+    assert list(long) == ["omega [rad/s]", "mode", "frequency [rad/s]"]
+
+
+@pytest.mark.parametrize("name", ["t-a.csv", "t-b.csv", "t.json"])
+def test_of_several_tables_all_or_none_are_written(tmp_path, name):
+    def table(value):
+        return xr.Dataset({"a": ("x", [value]), "b": ("y", [value])})
+
+    save(table(1.0), tmp_path / "t.csv")
+    before = {path: path.read_bytes() for path in tmp_path.iterdir() if path.name != name}
+    (tmp_path / name).unlink()
+    (tmp_path / name).mkdir()  # where no file can be written
+    with pytest.raises(IsADirectoryError, match=name):
+        save(table(2.0), tmp_path / "t.csv")
+    assert {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()} == before
 
 
 def test_a_failed_write_leaves_the_old_file(tmp_path):
@@ -228,8 +277,9 @@ def test_unknown_endings_and_files_that_are_no_results(run, tmp_path):
         load(tmp_path / "bad.nc")
 
 
-def test_inputs_that_differ_from_a_file_are_named(run, tmp_path):
-    path = save(run, tmp_path / "run.nc")
+@pytest.mark.parametrize("ending", [".nc", ".csv"])
+def test_inputs_that_differ_from_a_file_are_named(run, tmp_path, ending):
+    path = save(run, tmp_path / f"run{ending}").with_suffix(ending.replace("csv", "json"))
     # Another day, another machine, another version: the same run.
     again = run.assign_attrs(wall_time=9.0, versions="{}", verdict="failed")
     assert differing_inputs(again, path) == {}
@@ -245,12 +295,13 @@ def test_inputs_that_differ_from_a_file_are_named(run, tmp_path):
     assert differing_inputs({**inputs, "beam_length": 9.0}, path) == {"beam_length": (9.0, 8.0)}
 
 
-def test_another_grid_differs(tmp_path):
+@pytest.mark.parametrize("ending", [".nc", ".csv"])
+def test_another_grid_differs(tmp_path, ending):
     grid = xr.Dataset(
         {"a": (("omega", "time"), np.zeros((2, 3)))},
         coords={"omega": [4.0, np.nan], "time": [0.0, 1.0, 2.0]},
     )
-    path = save(grid, tmp_path / "sweep.nc")
+    path = save(grid, tmp_path / f"sweep{ending}").with_suffix(ending.replace("csv", "json"))
     assert differing_inputs(grid.isel(time=[0]), path) == {}
     assert list(differing_inputs(grid.isel(omega=[0]), path)) == ["omega"]
     assert differing_inputs({"omega": [4.0, 6.0, 8.0]}, path)["omega"][0] == [4.0, 6.0, 8.0]
@@ -260,5 +311,8 @@ def test_another_grid_differs(tmp_path):
 def test_a_file_that_cannot_be_read_differs(run, tmp_path):
     (tmp_path / "run.nc").write_text("mine")
     assert "not a netCDF file" in differing_inputs(run, tmp_path / "run.nc")["file"][1]
+    for text in ("mine", "[]", "{}"):
+        (tmp_path / "run.json").write_text(text)
+        assert list(differing_inputs(run, tmp_path / "run.json")) == ["file"]
     (tmp_path / "folder.nc").mkdir()
     assert list(differing_inputs(run, tmp_path / "folder.nc")) == ["file"]

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from analytic import Beam, SpinUp, periodic_orbits, spin_up_response, steady_state
+from analytic import Beam, Blade, SpinUp, Tube, periodic_orbits, spin_up_response, steady_state
 from rotbeam_exu import dataset_of, load, save, simulate
 from rotbeam_exu.files.vtk import save_vtk
-from rotbeam_exu.runs.shape import in_space, outer_strain, shape_of
+from rotbeam_exu.runs.shape import in_space, outer_strain, shape_of, sides_of
 
 meshio = pytest.importorskip("meshio")
 
@@ -109,3 +109,59 @@ def test_what_has_no_sections_is_refused(beam, shape, tmp_path):
     with pytest.raises(ValueError, match="ending must be .pvd"):
         save_vtk(shape, tmp_path / "blade.vtu")
     assert not list(tmp_path.iterdir())
+
+
+def test_sides_of_a_tapered_blade_are_given_at_its_stations(beam, tmp_path):
+    """One height of a blade whose height varies is refused, one width that does not is good."""
+    blade = beam.with_taper(height=0.4)
+    orbit = periodic_orbits(blade, 3.0, [0.2]).section_loads(0, STATIONS, [1.0])
+    loads = shape_of(orbit).isel(time=0)
+    root = np.sqrt(12.0 * beam.second_moment / beam.area)
+    height, width = root * (1.0 - 0.05 * STATIONS), beam.area / root
+    with pytest.raises(
+        ValueError, match="height of this blade varies .* to 0.6 of its largest: gi"
+    ):
+        outer_strain(loads, root)
+    with pytest.raises(ValueError, match="height of this blade varies .* at each of the 9 station"):
+        save_vtk(loads, tmp_path / "blade.pvd", height=root, width=width)
+    assert not list(tmp_path.iterdir())
+    strain = outer_strain(loads, height, width)
+    by_hand = abs(loads["strain"]) + 0.5 * abs(loads["curvature"][:, 2]) * height
+    np.testing.assert_allclose(strain, by_hand, rtol=1e-12)
+    # At one station alone, too.
+    one = outer_strain(loads.isel(station=3), [height[3]], width)
+    np.testing.assert_allclose(one, by_hand[3], rtol=1e-12)
+    found = read(save_vtk(loads, tmp_path / "blade.pvd", height=height, width=width), 0)
+    corners = found.points.reshape(9, 4, 3)
+    np.testing.assert_allclose(
+        np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1), height, rtol=1e-9
+    )
+    np.testing.assert_allclose(
+        np.linalg.norm(corners[:, 2] - corners[:, 1], axis=1), width, rtol=1e-9
+    )
+    largest = np.abs(found.point_data["strain"].reshape(9, 4)).max(axis=1)
+    np.testing.assert_allclose(largest, strain, rtol=1e-12)
+
+
+def test_sides_of_other_blades_that_vary(beam):
+    """By the stiffness in the plane and out of it, of coefficients, ratios and tables."""
+    chord, thick = np.array([0.4, 0.3]), np.array([0.1, 0.1])
+    EA, m = 7e10 * chord * thick, 2700.0 * chord * thick
+    stiffness = np.stack([EA, EA, EA, EA * thick**2 / 3.0, EA * thick**2 / 12, EA * chord**2 / 12])
+    mass = np.stack([m, m * chord**2 / 12, m * thick**2 / 12, m * chord**2 / 12])
+    table = Blade.from_stations([0.0, 8.0], stiffness.T, mass.T)
+    at, flat = np.array([2.0, 6.0]), beam.with_taper(width=0.5)
+    assert sides_of(flat, at, height=0.2).tolist() == [[0.2], [0.2]]
+    assert sides_of(table, at, width=0.1).tolist() == [[0.1], [0.1]]
+    assert sides_of(beam.with_shape(Tube()), at, height=0.2, width=0.2).shape == (2, 2)
+    for blade, name in (
+        (flat, "width"), (table, "height"), (beam.with_shape(Tube()).with_taper(0.3, 0.3), "width")
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match=f"the {name} of this blade varies"):
+            sides_of(blade.blade, at, **{name: 0.2})
+        given = sides_of(blade.blade, at, **{name: [0.2, 0.1]})
+        assert given.ravel().tolist() == [0.2, 0.1]
+    with pytest.raises(ValueError, match="height must be one number in m, or one at each of the 2"):
+        sides_of(table, at, height=[0.3, 0.2, 0.1])
+    with pytest.raises(ValueError, match="width must not be negative, got -0.1 m"):
+        sides_of(table, at, width=[0.3, -0.1])

@@ -28,11 +28,11 @@ FUNCTIONS = 12
 """Functions for each curvature of bending, at least, on a blade without point masses."""
 MOST_FUNCTIONS = 80
 """Functions for each curvature of bending, at most."""
-LONGEST = 1.0
-"""Step of w̄ from one state to the next: beyond, Newton's method may leave the branch."""
-_SHORTEST = 1e-3
+_SHORTEST = 1e-4  # step of speed and load, over what of them is reached
 _LARGEST_KICK = 0.1
-_STEPS, _EXACT = 12, 1e-12  # of Newton's method, and its last change over the size of the state
+_STEPS = 60  # of speed and load
+_CHANGES, _EXACT = 12, 1e-12  # of Newton's method, and the last over the size of the state
+_CONTRACTION = 0.25
 
 
 def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceContinuum:
@@ -138,49 +138,55 @@ class SpaceBlade(AtConstantRate):
             return found
         unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
-        straight = unit.half_turn and unit.mirrored and self.push is None
-        whole = max(self.rate / LONGEST, self._loaded)
-        q, reached, share = np.zeros(self.size), 0.0, float(straight or whole == 0.0)
-        step = longest = 1.0 / max(whole, 1.0)
-        while True:
+        still = self.push is None and (self.rate == 0.0 or (unit.half_turn and unit.mirrored))
+        q, reached, step = np.zeros(self.size), float(still), 1.0
+        for _ in range(_STEPS):
+            share = min(reached + step, 1.0)
             found = self._newton(q, share)
             if found is not None:
                 if share == 1.0:
                     return found
-                q, reached, step = found, share, min(1.5 * step, longest)
-            elif share == 0.0 or step < _SHORTEST * longest:
-                load = f" and at {share:.4g} of the load" if self.push is not None else ""
-                raise ValueError(
-                    f"the steady state ends or becomes unstable at w_bar = {share * self.rate:.4g}"
-                    f"{load}, before w_bar = {self.rate:.4g}: rotate slower, or load it less"
-                )
+                q, reached, step = found, share, 2.0 * step
             else:
-                step *= 0.5
-            share = min(reached + step, 1.0)
+                step = 0.5 * (share - reached)
+                if step <= _SHORTEST * reached:
+                    raise ValueError(self._lost("ends or becomes unstable", reached))
+        raise ValueError(self._lost(f"is followed in {_STEPS} steps and is still", reached))
 
-    @property
-    def _loaded(self) -> float:
-        """Angle by which the load bends or twists the softest section's blade, about."""
-        if self.push is None:
-            return 0.0
-        own = self.model.functions
-        soft = own.blade.flexibility(self.model.points, own.theory, own.slenderness)[:, 3:, 3:]
-        whole = float(np.sum(np.abs(self.load))) + abs(self.lift)
-        return whole * float(np.trace(soft, axis1=1, axis2=2).max())
+    def _lost(self, how: str, reached: float) -> str:
+        """Return a sentence on the steady state that is followed up to shares of speed and load."""
+        at, remedies = [], []
+        if self.rate:
+            at.append(f"w_bar = {reached * self.rate:.4g} of {self.rate:.4g}")
+            remedies.append("rotate slower")
+        if self.push is not None:
+            at.append(f"{reached:.4g} of the load")
+            remedies.append("load it less, and check its unit")
+        return f"the steady state {how} at {' and '.join(at)}: {', or '.join(remedies)}"
 
     def _newton(self, q: FloatArray, share: float) -> FloatArray | None:
-        """Return the state near `q` (n,) at shares of speed and load; None if lost, or unstable."""
+        """Return the state that `q` (n,) goes over into at shares of speed and load.
+
+        None where it may be one of another branch: the tangent must stay stable, and the second
+        change be less than a quarter of the first, as it is where the theorem of Newton and
+        Kantorovich holds (Deuflhard, Newton Methods for Nonlinear Problems, 2011).
+        """
         still, rate = np.zeros((1, self.size)), share * self.rate
         push = None if self.push is None else share * self.push
         # A moment that keeps its direction has no potential.
         values = np.linalg.eigvals if push is not None and push[2].any() else np.linalg.eigvalsh
-        for _ in range(_STEPS):
+        sizes: list[float] = []
+        for _ in range(_CHANGES):
             tangent = self.model.tangent(q[None], still, still, Driven(rate, push=push))
+            if not values(tangent.stiffness[0]).real.min() > 0.0:
+                return None
             change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
             q = q - change
-            if np.linalg.norm(change) <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
-                stable = values(tangent.stiffness[0]).real.min() > 0.0
-                return q if stable else None
+            sizes.append(float(np.linalg.norm(change)))
+            if sizes[-1] <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
+                return q
+            if len(sizes) == 2 and not sizes[1] <= _CONTRACTION * sizes[0]:
+                return None
         return None
 
     def gauge(self, q: FloatArray) -> FloatArray:

@@ -83,8 +83,8 @@ def steady_state(
 ) -> SteadyState:
     """Return the steady state of a blade in rotation, under a load at its tip and its weight.
 
-    Followed from rest in steps of the speed and the load; functions are added until the tip
-    settles.
+    Speed and load are raised from zero together, at once where Newton's method is sure to stay on
+    the branch, otherwise in steps; functions are added until the tip settles.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def steady_state(
     ------
     ValueError
         If the section out of the plane is not known, or the state ends or becomes unstable at a
-        lower speed.
+        lower speed or load, or is not reached in 60 steps.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def steady_state(
         first.model.functions.blade.tolerance,
         lambda one: one.tip,
         f"the tip's place over the length at omega = {omega:g} rad/s",
-        "rotate slower",
+        "rotate slower, or load it less",
     )
     return SteadyState(
         blade=blade, omega=omega, theory=theory, force=force, moment=moment, gravity=gravity,
