@@ -17,7 +17,7 @@ from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
 from .motion import chosen_times, configured, motion_of, slower_than_paper
-from .options import Config, RampTime, SteadySpeed, Whole
+from .options import Config, Number, RampTime, SteadySpeed, Whole
 from .output import bar, print_text
 
 
@@ -25,12 +25,12 @@ def animate(
     *,
     omega: SteadySpeed = None,
     ramp_time: RampTime = None,
-    duration: float | None = None,
+    duration: Number | None = None,
     rate: Whole = 20,
     beside: Literal["linear"] | None = None,
     run: Path | None = None,
-    height: float | None = None,
-    width: float | None = None,
+    height: Number | None = None,
+    width: Number | None = None,
     config: Config = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,

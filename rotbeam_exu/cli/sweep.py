@@ -23,16 +23,14 @@ from .motion import (
     grid_motion,
     refuse_rest,
 )
-from .options import Config, RampTime, SteadySpeed, Whole, Workers
+from .options import Config, Number, Numbers, RampTime, SteadySpeed, Whole, Workers
 from .output import formatted, print_columns, print_line, print_note, print_text
-
-Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
 
 def sweep(
     *,
-    omega: Values = None,
-    ramp_time: Values = None,
+    omega: Numbers = None,
+    ramp_time: Numbers = None,
     discretization: Discretization = Discretization(),
     driving: Driving = Driving(),
     workers: Workers = Workers(),
@@ -129,7 +127,7 @@ def converge(
     *,
     omega: SteadySpeed = None,
     ramp_time: RampTime = None,
-    tolerance: float = 1e-4,
+    tolerance: Number = 1e-4,
     count: Whole = 3,
     discretization: Discretization = Discretization(),
     driving: Driving = Driving(),
