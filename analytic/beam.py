@@ -12,7 +12,7 @@ from .blade import Blade, Variations
 from .input_checks import positive, shown, warn_if_giga
 from .parts import UNDAMPED, Damping, PointMass
 from .section import OutOfPlane, Section
-from .section_shapes import Gyration
+from .section_shape import Gyration
 from .theory import BERNOULLI_EULER, Theory, require_theory
 from .unit_blade import UNIFORM, UnitBlade
 from .warning import warn

@@ -31,7 +31,7 @@ from .input_checks import (
 )
 from .parts import STRAIGHT, UNDAMPED, Damping, Line, Offset, PointMass
 from .section import OutOfPlane, Section
-from .section_shapes import Gyration, SectionShape, require_shape
+from .section_shape import Gyration, SectionShape, require_shape
 from .shape_functions import shape_functions
 from .station_section import Interpolation, section_of_table
 from .unit_blade import UnitBlade

@@ -23,12 +23,15 @@ class Theory:
         Whether the tension acts along the slope of the axis, Engesser's law, not along the normal
         of the section, Reissner's; of a beam that shears, in the plane.
     rotary_inertia : bool
-        Whether slices have inertia against rotation in the plane: that of a homogeneous section,
-        ρI = m EI/EA, unless the section tells its own. What it tells is there in any case.
+        Whether slices have inertia against rotation about all axes: that of a homogeneous section,
+        ρI = m EI/EA, unless the section tells its own. What it tells is there in any case. Without
+        it they have inertia against torsion, but none against the rates of bending.
     trapeze : bool
-        Whether slices of a blade in space have inertia against torsion too, with the propeller
-        moment, and twist shortens the axis, the trapeze effect. Both are of the same size; codes
-        without them are compared with False.
+        Whether twist shortens the axis, the trapeze effect, and slices without rotary inertia
+        feel the rotation of the clamp, which gives the propeller moment. Both untwist a blade and
+        are of the same size; slices with rotary inertia have the propeller moment in any case.
+        GXBeam and many others do not have the trapeze effect: compare with False. BeamDyn has
+        that of the elastic twist alone, which is neither.
 
     Raises
     ------

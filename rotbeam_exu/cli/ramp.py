@@ -13,14 +13,14 @@ from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
 from .motion import Discretization, chosen_times, configured, motion_of, refuse_rest
-from .options import Config, SteadySpeed, Whole
+from .options import Config, Number, SteadySpeed, Whole
 from .output import counter, formatted, print_columns, print_note
 
 
 def ramp(
     *,
     omega: SteadySpeed = None,
-    longest: float | None = None,
+    longest: Number | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
     element: str | None = None,

@@ -14,7 +14,7 @@ from analytic.warning import warn
 from ..lazily import xr
 from .job import Flag, Results
 from .motion import configured, omega_of
-from .options import Config, Dampings, Loads, NoFigure, Whole, option_of
+from .options import Config, Dampings, Loads, NoFigure, Number, Whole, option_of
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 
 def respond(
     *,
-    first: Annotated[float, Parameter(name="--from")],
-    last: Annotated[float, Parameter(name="--to")],
-    omega: float | None = None,
+    first: Annotated[Number, Parameter(name="--from")],
+    last: Annotated[Number, Parameter(name="--to")],
+    omega: Number | None = None,
     loads: Loads = Loads(),
     dampings: Dampings = Dampings(),
     points: Whole = 41,

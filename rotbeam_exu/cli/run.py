@@ -16,7 +16,7 @@ from ..runs.attributes import beam_attributes
 from ..runs.check import energy_drift
 from .job import Flag, Results
 from .motion import Discretization, Driving, configured, motion_of
-from .options import Config, NoFigure, RampTime, SteadySpeed, Whole
+from .options import Config, NoFigure, Number, RampTime, SteadySpeed, Whole
 from .output import bar, print_line
 
 if TYPE_CHECKING:
@@ -151,9 +151,9 @@ def reference(
     *,
     omega: SteadySpeed = None,
     ramp_time: RampTime = None,
-    duration: float | None = None,
+    duration: Number | None = None,
     samples: Whole = 1501,
-    tolerance: float = 1e-8,
+    tolerance: Number = 1e-8,
     config: Config = None,
     results: Results = Results(),
 ) -> None:

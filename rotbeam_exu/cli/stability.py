@@ -15,7 +15,7 @@ from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
 from .motion import configured, omega_of
-from .options import Amplitudes, Config, Omega, SectionOptions, Whole
+from .options import Amplitudes, Config, Number, Omega, SectionOptions, Whole
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def stability(
     shape: SectionOptions = SectionOptions(),
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
-    damping_ratio: float = 0.0,
+    damping_ratio: Number = 0.0,
     config: Config = None,
     results: Results = Results(),
 ) -> None:

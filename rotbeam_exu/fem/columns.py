@@ -19,7 +19,6 @@ from analytic.exact.beam.state import SectionLoads
 from analytic.exact.space.unit import space_unit
 from analytic.lazily import interpolate, sparse
 from analytic.quadrature import gauss_points
-from analytic.theory import Theory
 
 from ..labels import dataset, labeled
 from ..lazily import xr
@@ -250,9 +249,7 @@ class _Masses:
         self._second = np.zeros((self._x.size, 3, 3))
         self._second[x.size : -1, 1, 1] = inertias
         if model.twists:
-            _, own = space_unit(beam).inertia_about(
-                x, Theory(rotary_inertia=True), beam.slenderness
-            )
+            _, own = space_unit(beam).inertia_about(x, beam.slenderness)
             second = 0.5 * np.trace(own) * np.eye(3)[..., None] - own
             unit = beam.mass_per_length * beam.length**2
             self._second[: x.size] = np.moveaxis(unit * second * dx, -1, 0)

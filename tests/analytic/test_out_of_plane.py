@@ -10,7 +10,8 @@ import pytest
 from analytic import Beam, Blade, Ellipse, Rectangle, RotbeamWarning, Section, Tube
 from analytic.description import describe, from_description
 from analytic.section import OutOfPlane
-from analytic.section_shapes import Box, Count, Gyration, Length, SectionShape
+from analytic.section_shape import Count, Gyration, Length, SectionShape
+from analytic.section_shapes import Box
 from rotbeam_exu.cli.options import SectionOptions
 
 BEAM = Beam.reference()

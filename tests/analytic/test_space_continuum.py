@@ -28,6 +28,7 @@ ALL = SpaceUnit(
 """All that a blade may have, but damping."""
 THEORIES = [
     Theory(shear=0.3, rotary_inertia=True),
+    Theory(),
     Theory(extension=False),
     Theory(extension=False, trapeze=False),
 ]

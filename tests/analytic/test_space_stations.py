@@ -51,7 +51,7 @@ def frequencies(blade, theory, count=6):
     [
         (Theory(extension=False, trapeze=False, rotary_inertia=True),
          Theory(extension=False, trapeze=False)),
-        (Theory(), Theory()),
+        (Theory(rotary_inertia=True), Theory()),
         (Theory(shear=0.3, rotary_inertia=True, trapeze=False), SHEARED),
     ],
 )  # fmt: skip

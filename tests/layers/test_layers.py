@@ -19,8 +19,8 @@ FLOORS = {
         {"input_checks", "quadrature", "settled", "methods", "plotting"},
         {"motion", "theory"},
         {"parts", "section", "unit_blade", "loads", "ramps"},
-        {"shape_functions", "section_shapes", "station_section"},
-        {"blade"},
+        {"shape_functions", "section_shape", "station_section"},
+        {"blade", "section_shapes"},
         {"beam"},
         {"reduced", "exact"},  # neither knows the other
         {"spin_up"},

@@ -23,7 +23,7 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..space.modes import LinearModes, space_modes_on
 from ..space.steady import lives_in_space
-from .modes import Plane, flap_blade, linear_modes, modes_on
+from .modes import Plane, linear_modes, modes_on
 
 if TYPE_CHECKING:
     from ...plotting import Axes
@@ -259,14 +259,13 @@ def _family(
     ]
     # A model that resolves the modes at both ends does so between them.
     model: Any = max(ends, key=lambda one: one.bending)
-    bent = flap_blade(beam) if plane == "flap" else beam
-    in_space = plane == "torsion" or lives_in_space(beam)
+    family = None if plane == "lag" else plane
+    in_space = plane != "lag" or lives_in_space(beam)
 
     def modes_at(omega: float, near: Any = None) -> LinearModes:
         if not in_space:
-            return modes_on(model, bent, omega, wanted, theory)
-        torsion = plane == "torsion"
-        return space_modes_on(model, beam, omega, wanted, torsion=torsion, near=near)
+            return modes_on(model, beam, omega, wanted, theory)
+        return space_modes_on(model, beam, omega, wanted, family=family, near=near)
 
     found: list[LinearModes] = []
     for omega in speeds.tolist():

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any, Literal, get_args
 
 import numpy as np
 
-from ...arrays import FloatArray, in_units
-from ...beam import AnyBlade, require_out_of_plane, warn_if_rpm
-from ...blade import Blade
+from ...arrays import FloatArray
+from ...beam import AnyBlade, warn_if_rpm
 from ...input_checks import rotation_speed, whole_number
 from ...methods.system import inverse_eigenvalues
 from ...settled import refined, settled
@@ -25,7 +23,7 @@ from ..beam.steady import (
     solve_modes,
     steady_rotation,
 )
-from ..space.modes import LinearModes, space_modes, torsion_modes
+from ..space.modes import LinearModes, modes_across, space_modes
 from ..space.steady import lives_in_space, space_rotation
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
@@ -66,7 +64,7 @@ def linear_modes(
         other. Of a blade with a twist, precone, prebend, sweep, offset, or a setting angle and a
         known section out of the plane, they are not: then these are all of them.
     theory : Theory
-        Extension, shear, rotary inertia, trapeze effect; shear and rotary inertia not for "flap".
+        Extension, shear, rotary inertia, trapeze effect.
     functions : int
         Least number of functions for the tangent's angle, at most 256; half as many modes are
         resolved. They grow by half until half as many again change no frequency by 1e-9.
@@ -98,16 +96,10 @@ def linear_modes(
                 "it out, and take the shares of each mode"
             )
         return space_modes(beam, omega, count, theory)
-    if plane == "torsion":
-        return torsion_modes(beam, omega, count, theory)
-    if plane == "flap" and (theory.rotary_inertia or theory.shear is not None):
-        raise ValueError(
-            "rotary_inertia and shear of a theory are those of slices in the plane, and plane is "
-            "'flap': leave them out"
-        )
-    bent = flap_blade(beam) if plane == "flap" else beam
+    if plane != "lag":
+        return modes_across(beam, omega, count, theory, plane)
     # Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
-    first = steady_rotation(bent, omega, resolved_model(bent, count, theory, functions))
+    first = steady_rotation(beam, omega, resolved_model(beam, count, theory, functions))
     (steady, modes), _, error = settled(
         lambda steady: (steady, solve_modes(steady)),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
@@ -116,23 +108,7 @@ def linear_modes(
         f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
         "rotate slower",
     )
-    return replace(_in_units(bent, omega, count, steady, modes, theory, error), beam=beam)
-
-
-def flap_blade(beam: AnyBlade) -> Blade:
-    """Return the blade whose plane of bending is the one normal to the plane of rotation.
-
-    With the bending stiffness that the section has there. The inertia of slices and of point masses
-    against rotation is known in the plane only, and left out.
-    """
-    ratio, section = require_out_of_plane(beam, torsion=False).bending_ratio, beam.section
-    bending = in_units(section.bending_stiffness, 1.0, 1.0 / ratio)
-    return replace(
-        beam.blade,
-        setting_angle=0.5 * math.pi,
-        section=replace(section, bending_stiffness=bending, rotary_inertia=0.0, out_of_plane=None),
-        point_masses=tuple(replace(one, inertia=0.0) for one in beam.point_masses),
-    )
+    return _in_units(beam, omega, count, steady, modes, theory, error)
 
 
 def modes_on(

@@ -5,12 +5,14 @@ section about the tangent, κ = ϑ' and N the planar motion's curvature and axia
 the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
 
     L2 = ½∫ẇ² dm + ½∫j φ̇² dx - ½∫(1 + e) N β² dx
-         - ½∫[Nk²(φ' + κβ)² + ι(ϑ̇ + w̄)²φ²] dx
+         - ½∫[Nk²(φ' + κβ)² + ιs²φ² - j2w̄²β²] dx
          - ½∫EI [g(φ' + κβ)² + r(β' - κφ)² + 2κβ'φ - κ²(β² + φ²)] dx.
 
 The second line is the trapeze effect, k² = (1 + r)EI/EA, and the propeller moment,
-ι = j(1 - r)/(1 + r). w has no Coriolis force: about a periodic orbit it is a Hill equation. Left
-out are the inertia of the sections against flap, and at r = 1 that of the twist. The viscosity
+ι = j3 - j2 = j(1 - r)/(1 + r). Slices without rotary inertia of bending feel the clamp's rotation
+alone, s = w̄, with j2 against flap; those with it turn by s = ϑ̇ + w̄, and theirs against flap is
+left out. w has no Coriolis force: about a periodic orbit it is a Hill equation. Also left out
+is what ϑ̇β adds to φ̇, of the order j; and at r = 1 the inertia against twist. The viscosity
 η_b of the blade resists the rates of β' - κφ and φ' + κβ. Of a damped planar motion EIη_b κ̇ adds
 to the moment EIκ, which the stiffness out of the plane takes back by its share r of EIκ alone.
 """
@@ -58,11 +60,13 @@ class Space:
         self.twists = bool(np.isfinite(self.g)) and section.bending_ratio != 1.0
         told = blade.section.rotary_inertia
         self._told = told is not None
-        inert = told != 0.0 if self._told else theory.trapeze or theory.rotary_inertia
-        if self.twists and not inert:
+        # Whether slices turn in bending too, or feel the clamp's rotation, or neither.
+        self._whole = self._told or theory.rotary_inertia
+        self._carried = theory.trapeze and not self._whole
+        if self.twists and told == 0.0:
             raise ValueError(
-                "motion out of the plane is not known for a twist without inertia: take a theory "
-                "with rotary_inertia=True, or give the section a rotary_inertia above zero"
+                "motion out of the plane is not known for a twist without inertia: give the "
+                "section a rotary_inertia above zero, or leave it out for a homogeneous one"
             )
         self.size = (1 + self.twists) * self.functions
 
@@ -78,17 +82,23 @@ class Space:
         phi = self.shapes.once(x)
         return linalg.block_diag(across, phi.T @ ((dx * self._polar(x))[:, None] * phi))
 
-    def _held(
-        self, x: FloatArray, tension: FloatArray, spin: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return GJ + Nk², and ιΩ² of a section that turns in the plane by the rate Ω, at `x`."""
+    def _held(self, x: FloatArray, tension: FloatArray) -> FloatArray:
+        """Return GJ + Nk² at `x`."""
         r, unit = self.section.bending_ratio, self.unit
         torsion = self.g * evaluated(unit.bending, x)
         gyration = evaluated(unit.bending, x) / evaluated(unit.axial, x)
         if self.theory.trapeze:
             torsion = torsion + tension * self.blade.slenderness * (1.0 + r) * gyration
-        difference = (1.0 - r) / (1.0 + r) * self._polar(x)
-        return np.broadcast_to(torsion, tension.shape), difference * np.square(spin)
+        return np.broadcast_to(torsion, tension.shape)
+
+    def _turned(
+        self, x: FloatArray, rate: FloatArray, spin: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return ιs² and j2w̄² at `x` of slices that turn in the plane by the rate `spin`."""
+        polar, r = self._polar(x) / (1.0 + self.section.bending_ratio), self.section.bending_ratio
+        carried = self._carried * np.square(rate) * polar
+        held = carried + self._whole * np.square(spin) * polar
+        return (1.0 - r) * held, r * carried
 
     def _polar(self, x: FloatArray) -> FloatArray:
         """Return j at `x`, over m0 L²."""
@@ -115,14 +125,15 @@ class Space:
         bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
         straight = _form(angle, model.weights * tension / stretch - moment * kappa, angle)
         straight += _form(bent, r * bending, bent)
+        rate = np.asarray(by.rate)[..., None]
+        turning, tilting = self._turned(x, rate, rate + kappa_dot @ upto.T)
+        straight -= _form(angle, model.weights * tilting, angle)
         if not self.twists:
             twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
             mixed = _form(bent, excess, twist)
-            twisted = -_form(twist, excess * kappa, twist)
+            twisted = _form(twist, model.weights * turning - excess * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
-        spin = np.asarray(by.rate)[..., None] + kappa_dot @ upto.T
-        torsion, turning = self._held(x, tension, spin)
-        torsion = model.weights * torsion
+        torsion = model.weights * self._held(x, tension)
         straight += _form(angle, torsion * kappa**2, angle)
         mixed = _form(angle, torsion * kappa, strain)
         mixed += _form(bent, excess, once)

@@ -31,7 +31,9 @@ class Masses:
     places: FloatArray  # (masses,), as mass and drag
     mass: FloatArray
     offset: FloatArray  # (3, masses), from the line to the center of mass
-    inertia: FloatArray  # (3, 3, masses), about the center of mass
+    inertia: FloatArray  # A about the center of mass, (3, 3, masses)
+    carried: FloatArray  # C, the same against the clamp's rotation, (3, 3, masses)
+    whole: FloatArray  # 1 where A takes part in all spin, 0 where in that relative to the clamp
     drag: FloatArray | None
 
     @cached_property
@@ -42,7 +44,7 @@ class Masses:
     @cached_property
     def turns(self) -> bool:
         """Whether there is inertia against rotation."""
-        return bool(self.inertia.any())
+        return bool(self.inertia.any() or self.carried.any())
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,16 +231,21 @@ class StrainFunctions:
         mass = evaluated(blade.mass, x)
         places = np.concatenate((x, positions))
         turned = blade.section_frames(places)
-        own, J = np.zeros((3, places.size)), np.zeros((3, 3, places.size))
-        own[:, : x.size], about = blade.inertia_about(x, self.theory, self.slenderness)
-        J[:, :, : x.size] = weights * about
-        own[1:, x.size :], J[2, 2, x.size :] = centers.T, inertias
+        own, (A, C) = np.zeros((3, places.size)), np.zeros((2, 3, 3, places.size))
+        own[:, : x.size], J = blade.inertia_about(x, self.slenderness)
+        whole, A[:, :, : x.size] = np.ones_like(places), weights * J
+        if not (blade.turns or self.theory.rotary_inertia):
+            C, whole[: x.size] = float(self.theory.trapeze) * A, 0.0
+            A[1:, 1:] = 0.0
+        own[1:, x.size :], A[2, 2, x.size :] = centers.T, inertias
         air = blade.damping[2]
         return Masses(
             places=places,
             mass=np.concatenate((weights * mass, lumped)),
             offset=np.einsum("ijp,jp->ip", turned, own),
-            inertia=np.einsum("ikp,klp,jlp->ijp", turned, J, turned),
+            inertia=np.einsum("ikp,klp,jlp->ijp", turned, A, turned),
+            carried=np.einsum("ikp,klp,jlp->ijp", turned, C, turned),
+            whole=whole,
             drag=np.concatenate((air * weights, np.zeros_like(lumped))) if air else None,
         )
 

@@ -34,6 +34,8 @@ class Rates(NamedTuple):
     spin_rate: FloatArray
     total_spin: FloatArray  # at the masses, in space
     total_spin_rate: FloatArray
+    turn: FloatArray  # Ω, of which masses have inertia: in space, or relative to b
+    turn_rate: FloatArray
     acceleration: FloatArray  # A_c, in space
     twisting: FloatArray  # R K̈
     speeding: FloatArray  # R Γ̈
@@ -51,6 +53,7 @@ class Changes:
         at = State(*(field[..., None, :] for field in at))
         motion = Rates(*(field[..., None, :] for field in motion))
         self._model, self._at, self._motion = model, at, motion
+        self._whole = model.masses.whole
         self._W, self._W_dot = W[..., None], W_dot[..., None]
         self._integral: Callable[[FloatArray], FloatArray] = model.integrals.of
         self._K = own.K.swapaxes(1, 2)
@@ -73,7 +76,7 @@ class Changes:
         heavy = masses.mass * self.center
         mass, damping, stiffness = (_contracted(heavy, pull) for pull, _ in parts)
         if masses.turns:
-            mass += _contracted(self.turn_m, self._carried)
+            mass += _contracted(self.turn_m, self._turning)
             damping += _contracted(self.turn_m, parts[1][1])
             stiffness += _contracted(self.turn_m, parts[2][1])
         if masses.drag is not None:
@@ -82,15 +85,21 @@ class Changes:
             stiffness += _contracted(dragged, velocity)
         return mass, damping, stiffness
 
-    @cached_property
-    def _inertia(self) -> FloatArray:
-        """R J Rᵀ, (3, 3, samples, 1, masses)."""
-        units = np.eye(3)[:, :, None, None, None]
-        return np.stack([self._model.inertia(self._at, unit) for unit in units], axis=1)
+    def _in_space(self, *, carried: bool = False) -> FloatArray:
+        """Return R A Rᵀ or R C Rᵀ, (3, 3, samples, 1, masses)."""
+        parts = [
+            self._model.inertia(self._at, unit, carried=carried)
+            for unit in np.eye(3)[:, :, None, None, None]
+        ]
+        return np.stack(parts, axis=1)
 
     @cached_property
-    def _carried(self) -> FloatArray:
-        """R J Rᵀ Φ."""
+    def _inertia(self) -> FloatArray:
+        return self._in_space()
+
+    @cached_property
+    def _turning(self) -> FloatArray:
+        """R A Rᵀ Φ."""
         return turned(self._inertia, self.turn_m)
 
     def _shortening(self, turning: FloatArray) -> FloatArray | float:
@@ -102,7 +111,7 @@ class Changes:
         return np.asarray(self._at.frame[:, 0] * (-own.trapeze * rate * self._K[0]))
 
     def _of_rates(self) -> tuple[FloatArray, FloatArray]:
-        """Return the derivatives of A_c and of J α + ω × J ω to q̇."""
+        """Return the derivatives of A_c and of A α + Ω × A Ω to q̇."""
         at, motion, W = self._at, self._motion, self._W
         spin, turn = motion.spin, self.turn
         change = self._integral(cross(turn, motion.turning) + cross(spin, self.bend))
@@ -119,11 +128,12 @@ class Changes:
         about = change + cross(W, self.turn_m)
         pull += cross(about, offset)
         pull += cross(self.turn_m, cross(total, offset)) + cross(total, self._offset)
-        couple = cross(self.turn_m, turned(self._inertia, motion.total_spin))
-        return pull, couple + turned(self._inertia, about) + cross(total, self._carried)
+        about = change + self._whole * cross(W, self.turn_m)
+        couple = cross(self.turn_m, turned(self._inertia, motion.turn))
+        return pull, couple + turned(self._inertia, about) + cross(motion.turn, self._turning)
 
     def _of_places(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the derivatives of ṙ, A_c and J α + ω × J ω to q."""
+        """Return the derivatives of ṙ, A_c and A α + Ω × A Ω + W × C W to q."""
         at, motion, W, W_dot = self._at, self._motion, self._W, self._W_dot
         turn, spin, slope = self.turn, motion.spin, at.slope
         turning, stretching = motion.turning, motion.stretching
@@ -154,14 +164,19 @@ class Changes:
         pull += cross(about, offset) + cross(motion.total_spin_rate, self._offset)
         pull += cross(spins_m, cross(total, offset))
         pull += cross(total, cross(spins_m, offset) + cross(total, self._offset))
-        couple = self._turned_inertia(motion.total_spin_rate, about)
-        couple += cross(spins_m, turned(self._inertia, motion.total_spin))
-        couple += cross(total, self._turned_inertia(motion.total_spin, spins_m))
+        about = change + self._whole * cross(W, spins_m)
+        couple = self._turned(self._inertia, motion.turn_rate, about)
+        couple += cross(spins_m, turned(self._inertia, motion.turn))
+        couple += cross(motion.turn, self._turned(self._inertia, motion.turn, spins_m))
+        if self._model.masses.carried.any():
+            couple += cross(W, self._turned(self._in_space(carried=True), W, 0.0))
         return velocity, pull, couple
 
-    def _turned_inertia(self, vector: FloatArray, change: FloatArray) -> FloatArray:
-        """Return the change of R J Rᵀ y to q, where y changes by `change`."""
-        turn, inertia = self.turn_m, self._inertia
+    def _turned(
+        self, inertia: FloatArray, vector: FloatArray, change: FloatArray | float
+    ) -> FloatArray:
+        """Return the change to q of an inertia times y, where y changes by `change`."""
+        turn = self.turn_m
         result = cross(turn, turned(inertia, vector))
         return np.asarray(result + turned(inertia, change - cross(turn, vector)))
 

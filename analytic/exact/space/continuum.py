@@ -12,11 +12,14 @@ and coordinates q of ε, γ, K that are orthonormal in the section's stiffness, 
 ½ q·q. k² = (EI2 + EI3)/EA is the trapeze effect: the mean fiber keeps its length, so that twist
 shortens the axis. With the spin ω' = R K̇ relative to b, d'Alembert's principle reads
 
-    q_k + ∫ (A_c · δr_c + [J α + ω × J ω] · δφ) dm = 0,    δφ' = R δK,   δr' = δφ × r' + R δΓ,
+    q_k + ∫ (A_c · δr_c + [J α + Ω × J Ω] · δφ) dm = 0,    δφ' = R δK,   δr' = δφ × r' + R δΓ,
 
-A_c, ω and α being those in space. All integrals from the clamp are one matrix, all beyond a point
-its transpose with the weights: so mass and stiffness are symmetric, and the Jacobi integral is
-kept. The plane is the subset κ3, ε, γ2. Strains as coordinates: Su and Cesnik (2011).
+A_c, Ω = ω + W and α being those in space, W the clamp's spin. So turn slices that have rotary
+inertia. Without it their kinetic energy is ½ J11 ω1² + ½ W·J W: J11 resists the relative spin ω1
+about the axis, and W × J W is the propeller moment, if the theory has it. All integrals from the
+clamp are one matrix, all beyond a point its transpose with the weights: so mass and stiffness are
+symmetric, and the Jacobi integral is kept. The plane is the subset κ3, ε, γ2. Strains as
+coordinates: Su and Cesnik (2011).
 """
 
 from __future__ import annotations
@@ -122,26 +125,34 @@ class SpaceContinuum:
             + cross(total_rate, at.offset_m)
             + cross(total, cross(total, at.offset_m))
         )
+        whole = self.masses.whole
+        turn = spin_m + whole * W
+        turn_rate = spin_rate_m + whole * (total_rate - spin_rate_m)
         return Rates(
             turning, stretching, spin, spin_m, velocity_m, spin_rate, total, total_rate,
-            acceleration, twisting, speeding,
+            turn, turn_rate, acceleration, twisting, speeding,
         )  # fmt: skip
 
-    def inertia(self, at: State, vector: FloatArray) -> FloatArray:
-        """Return R J Rᵀ times vectors (3, ..., masses)."""
-        return turned(at.frame_m, turned(self.masses.inertia, turned_back(at.frame_m, vector)))
+    def inertia(self, at: State, vector: FloatArray, *, carried: bool = False) -> FloatArray:
+        """Return R A Rᵀ times vectors (3, ..., masses), or R C Rᵀ of what the clamp carries."""
+        of = self.masses.carried if carried else self.masses.inertia
+        return turned(at.frame_m, turned(of, turned_back(at.frame_m, vector)))
 
     def _forces(
-        self, at: State, motion: Rates, push: FloatArray | None
+        self, at: State, motion: Rates, by: Driven
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return m A_c at the masses, and F and M on the grid, with weights."""
+        """Return m a at the masses, and F and M on the grid, with weights."""
+        push = by.push
         body = 0.0 if push is None else push[1][..., :1]
         pulled = self.masses.mass * (motion.acceleration - body)
         if not self.masses.turns:
             rotary = np.zeros_like(pulled)
         else:
-            rotary = self.inertia(at, motion.total_spin_rate) + cross(
-                motion.total_spin, self.inertia(at, motion.total_spin)
+            W = self._clamp(by)[0]
+            rotary = (
+                self.inertia(at, motion.turn_rate)
+                + cross(motion.turn, self.inertia(at, motion.turn))
+                + cross(W, self.inertia(at, W, carried=True))
             )
         held = pulled
         if self.masses.drag is not None:
@@ -166,7 +177,7 @@ class SpaceContinuum:
         """
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, by)
-        _, force, moment = self._forces(at, motion, by.push)
+        _, force, moment = self._forces(at, motion, by)
         return self._work(at, q, q_dot, force, moment)
 
     def section_loads(
@@ -182,7 +193,7 @@ class SpaceContinuum:
         sections = self.blade.section_frames(x)[:, :, None]
         force, moment = (
             np.moveaxis(turned_back(sections, turned_back(at.frame, one) @ onto), 0, -1)
-            for one in self._forces(at, motion, by.push)[1:]
+            for one in self._forces(at, motion, by)[1:]
         )
         return force, moment
 
@@ -200,7 +211,7 @@ class SpaceContinuum:
         """Return the residual and its derivatives to q, q̇ and q̈ for (samples, n) coordinates."""
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, by)
-        pulled, force, moment = self._forces(at, motion, by.push)
+        pulled, force, moment = self._forces(at, motion, by)
         change = Changes(self, at, motion, *self._clamp(by)[:2])
         mass, damping, stiffness = change.matrices()
         stiffness += change.geometric(pulled, force, moment)
@@ -311,10 +322,12 @@ class SpaceContinuum:
         del setting
         change, masses = self.changes(q[None]), self.masses
         moved = np.abs(shapes @ change.center[:, 0]) ** 2 @ masses.mass
-        turned = shapes @ change.turn_m[:, 0]
-        twist = np.einsum("ikp,ijp,jkp->k", turned.conj(), masses.inertia, turned).real
+        frame = self._state(q[None]).frame_m[:, :, 0]
+        spin = np.einsum("ijp,ikp->jkp", frame, shapes @ change.turn_m[:, 0])  # in R's axes
+        turning = np.einsum("ikp,ijp,jkp->k", spin.conj(), masses.inertia, spin).real
+        twist = np.abs(spin[0]) ** 2 @ masses.inertia[0, 0]
         parts = np.stack((moved[2], moved[1], twist), axis=-1)
-        return np.asarray(parts / (moved.sum(axis=0) + twist)[:, None])
+        return np.asarray(parts / (moved.sum(axis=0) + turning)[:, None])
 
     def struck(self, speed: float) -> FloatArray:
         """Return the rates (n,) of a straight blade that flaps as `kicked_state` has it."""
@@ -342,7 +355,8 @@ class SpaceContinuum:
         spin = np.broadcast_to(W, carried.shape)
         return np.asarray(
             0.5 * np.sum(q * (q @ self.functions.stiffness), axis=-1)
-            - 0.5 * self._energy(at, carried, spin)
+            - 0.5 * self._energy(at, carried, self.masses.whole * spin)
+            - 0.5 * np.sum(spin * self.inertia(at, spin, carried=True), axis=(0, 2))
         )
 
     def _energy(self, at: State, velocity: FloatArray, spin: FloatArray) -> FloatArray:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_out_of_plane
@@ -19,6 +19,7 @@ from .continuum import SpaceContinuum
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
+_ONLY_TWISTS = 1e-6  # displacement of the tip over the length, times its turn
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
 """Directions of the tip, in the root frame, whose peak may be called the amplitude."""
 
@@ -75,7 +76,7 @@ class LinearModes:
         """Return the displacements at `x` [m] normal to it and to the clamp, (points, count).
 
         On the scale of `lag`: the largest of all is 1 at the tip. In space the phase tells which is
-        ahead. Where the tip only twists, the twist is.
+        ahead. Where the tip only twists, to 1e-6 of its turn times the length, the twist is.
         """
         return self._moved(x)[0][2]
 
@@ -101,40 +102,46 @@ class LinearModes:
         if not self.model.in_space:
             sign = np.sign(math.cos(self.setting) * tip[1] + math.sin(self.setting) * tip[2])
             largest = np.where(k[0] == 1, sign * largest, largest)
-        largest = np.where(largest == 0.0, turn[-1], largest)
+        only = np.abs(largest) < _ONLY_TWISTS * length * np.abs(turn[-1])
+        largest = np.where(only, turn[-1], largest)
         return place[:, :-1] / largest, turn[:-1] / largest
 
 
-def torsion_modes(blade: AnyBlade, omega: float, count: int, theory: Theory) -> LinearModes:
-    """Return the lowest modes of the twist of a planar blade, which in the plane is alone.
+def modes_across(
+    blade: AnyBlade, omega: float, count: int, theory: Theory, family: str
+) -> LinearModes:
+    """Return the lowest modes of "flap" or "torsion" of a planar blade, by their larger share.
 
-    The trapeze effect and the propeller moment stiffen it. Of the paper's rectangle at 12 rad/s the
-    first is at 64.49 rad/s without either, at 65.59 with the propeller moment alone, and at 66.75
-    with both.
+    Both move without lag, and without each other unless slices have rotary inertia. The trapeze
+    effect and the propeller moment stiffen torsion. Of the paper's rectangle at 12 rad/s its first
+    is at 64.49 rad/s without either, at 65.59 with the propeller moment alone, and at 66.75 with
+    both.
     """
     known = require_out_of_plane(blade, torsion=False)
-    if known.torsion_ratio is None or math.isinf(known.torsion_ratio):
+    if family == "flap":
+        if known.torsion_ratio is None:
+            rigid = blade.with_section_out_of_plane(known.bending_ratio, math.inf)
+            return replace(space_modes(rigid, omega, count, theory, family), beam=blade)
+    elif known.torsion_ratio is None or math.isinf(known.torsion_ratio):
         raise ValueError(
             "torsion has no modes where torsion_ratio is unknown or infinite: give GJ/EI by "
             "with_section_out_of_plane or with_shape"
         )
-    told = blade.section.rotary_inertia
-    massless = told == 0.0 if told is not None else not (theory.trapeze or theory.rotary_inertia)
-    if massless:
+    elif blade.section.rotary_inertia == 0.0:
         raise ValueError(
-            "torsion has no modes without inertia of the slices: leave rotary_inertia out, for "
-            "that of a homogeneous section, and trapeze=False"
+            "torsion has no modes without inertia of the slices: leave rotary_inertia out of the "
+            "section, for that of a homogeneous one"
         )
-    return space_modes(blade, omega, count, theory, torsion=True)
+    return space_modes(blade, omega, count, theory, family)
 
 
 def space_modes(
-    blade: AnyBlade, omega: float, count: int, theory: Theory, *, torsion: bool = False
+    blade: AnyBlade, omega: float, count: int, theory: Theory, family: str | None = None
 ) -> LinearModes:
-    """Return the lowest modes, or those of torsion alone, on more functions until they settle."""
+    """Return the lowest modes, or those of a family alone, on more functions until they settle."""
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
     _, (steady, (found, shapes)), error = settled(
-        lambda one: (one, _solved(one, torsion)),
+        lambda one: (one, _solved(one, family)),
         finer_blades(space_rotation(blade, omega, model)),
         model.functions.blade.tolerance,
         lambda solved: np.log(solved[1][0][:count]),
@@ -150,7 +157,7 @@ def space_modes_on(
     omega: float,
     count: int,
     *,
-    torsion: bool = False,
+    family: str | None = None,
     near: LinearModes | None = None,
 ) -> LinearModes:
     """Return the modes on a discretization that is known to resolve them, unchecked.
@@ -160,7 +167,7 @@ def space_modes_on(
     steady = space_rotation(blade, omega, model)
     if near is not None:
         steady = replace(steady, near=near._steady)
-    found, shapes = _solved(steady, torsion)
+    found, shapes = _solved(steady, family)
     return _packed(blade, omega, steady, found[:count], shapes[:, :count], math.nan)
 
 
@@ -186,22 +193,29 @@ def _packed(
     )
 
 
-def _solved(steady: SpaceBlade, torsion: bool = False) -> tuple[FloatArray, ComplexArray]:
+def _solved(steady: SpaceBlade, family: str | None = None) -> tuple[FloatArray, ComplexArray]:
     """Return the frequencies, ascending, and the shapes (n, modes) in columns."""
-    bending, twists, *_ = steady.model.functions.counts
-    return _block(steady, slice(bending, bending + twists) if torsion else slice(None))
+    every = np.arange(steady.size)
+    if family is None:
+        return _block(steady, every)
+    bending, twists, _, shear = steady.model.functions.counts
+    apart = every[1:bending:2], every[bending : bending + twists], every[every.size - shear // 2 :]
+    frequencies, shapes = _block(steady, np.concatenate(apart))
+    torsion = steady.model.shares(steady.equilibrium, shapes.T)[:, 2] > 0.5
+    kept = torsion == (family == "torsion")
+    return frequencies[kept], shapes[:, kept]
 
 
 def flap_shape(model: SpaceContinuum) -> FloatArray:
     """Return the first flap mode of a planar blade at rest, (n,), its tip 1 out of the plane."""
     at_rest = SpaceBlade(model, 0.0, DIRECTIONS["flap"])
-    shape = _block(at_rest, slice(1, model.functions.counts[0], 2))[1][:, 0].real
+    shape = _block(at_rest, np.arange(1, model.functions.counts[0], 2))[1][:, 0].real
     return np.asarray(shape / (at_rest.gauge_gradient(at_rest.equilibrium[None])[0] @ shape))
 
 
-def _block(steady: SpaceBlade, moving: slice) -> tuple[FloatArray, ComplexArray]:
+def _block(steady: SpaceBlade, moving: NDArray[np.intp]) -> tuple[FloatArray, ComplexArray]:
     """Return the same where only some coordinates move."""
-    parts: list[Any] = [part[0, moving, moving] for part in steady.linearized[1:]]
+    parts: list[Any] = [part[0][np.ix_(moving, moving)] for part in steady.linearized[1:]]
     K, C, M = parts
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
     inverse, found = reciprocal_modes(0.5 * (K + K.T), -0.5j * (C - C.T), 0.5 * (M + M.T))

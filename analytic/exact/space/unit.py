@@ -32,7 +32,7 @@ class SpaceUnit(UnitBlade):
     line: Line = STRAIGHT  # over L
     flap: float = 1.0  # r = EI2/EI3
     torsion: float = math.inf  # g = GJ/EI3
-    told_rotary: bool = False  # whether the section tells `rotary`
+    turns: bool = False  # whether the section tells its rotary inertia
     body_offsets: tuple[Offset, ...] = ()  # (c2, c3) over L of each point mass
 
     @cached_property
@@ -76,17 +76,15 @@ class SpaceUnit(UnitBlade):
         onto[0, 5], onto[0, 4] = self.line.tension_offset[0], -self.line.tension_offset[1]
         return np.asarray(onto * soft[:, None] @ onto.T)
 
-    def inertia_about(
-        self, x: FloatArray, theory: Theory, slenderness: float
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return the centers of mass (3, places) from the line, and j about them (3, 3, places)."""
-        mass = evaluated(self.mass, x)
-        if self.told_rotary:
-            j3 = evaluated(self.rotary, x)
-        elif theory.rotary_inertia or theory.trapeze:
-            j3 = slenderness * mass * evaluated(self.bending, x) / evaluated(self.axial, x)
-        else:
-            j3 = np.zeros_like(x)
+    def inertia_about(self, x: FloatArray, slenderness: float) -> tuple[FloatArray, FloatArray]:
+        """Return the centers of mass (3, places) from the line, and J about them (3, 3, places).
+
+        J is that of the section or, where it tells none, of a homogeneous one.
+        """
+        j3 = evaluated(self.rotary, x)
+        if not self.turns:
+            mass, bending = evaluated(self.mass, x), evaluated(self.bending, x)
+            j3 = slenderness * mass * bending / evaluated(self.axial, x)
         j2 = self.flap * j3
         center = np.outer((0.0, *self.line.mass_offset), np.ones_like(x))
         return center, np.stack((j2 + j3, j2, j3)) * np.eye(3)[:, :, None]
@@ -198,11 +196,9 @@ class StationUnit(SpaceUnit):
         del theory, slenderness
         return np.asarray(np.linalg.inv(self.section.matrices(x)[0]))
 
-    def inertia_about(
-        self, x: FloatArray, theory: Theory, slenderness: float
-    ) -> tuple[FloatArray, FloatArray]:
+    def inertia_about(self, x: FloatArray, slenderness: float) -> tuple[FloatArray, FloatArray]:
         """Return the centers of mass (3, places), and the inertia about them (3, 3, places)."""
-        del theory, slenderness
+        del slenderness
         mass = self.section.matrices(x)[1]
         carried = mass[:, 3:, :3] / mass[:, :1, :1]  # c ×
         center = np.stack((carried[:, 2, 1], carried[:, 0, 2], carried[:, 1, 0]))
@@ -248,11 +244,11 @@ def space_unit(beam: AnyBlade) -> SpaceUnit:
     if out is None:
         mass, time = blade.mass_per_length * length, 1.0 / blade.frequency_scale
         section: Any = blade.section.in_units(length, mass, time)
-        return StationUnit(**common, section=section)
+        return StationUnit(**common, section=section, turns=True)
     assert out.torsion_ratio is not None
     return SpaceUnit(
         **common,
         flap=out.bending_ratio,
         torsion=out.torsion_ratio,
-        told_rotary=blade.section.rotary_inertia is not None,
+        turns=blade.section.rotary_inertia is not None,
     )

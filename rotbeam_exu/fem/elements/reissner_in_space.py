@@ -15,7 +15,6 @@ from analytic.exact.space.unit import space_unit
 from analytic.lazily import spatial
 from analytic.motion import Rotation
 from analytic.quadrature import gauss_points
-from analytic.theory import Theory
 
 from ..lazily import exudyn, items
 from ..mesh import Mesh
@@ -183,7 +182,7 @@ class _Row:
         self.stiffness = np.stack((EA, GA, GA, unit.torsion * EI, bent, EI), axis=1)
         inner, weights = gauss_points(8)
         x = (np.arange(elements)[:, None] + inner).ravel() / elements
-        _, about = unit.inertia_about(x, Theory(rotary_inertia=True), blade.slenderness)
+        _, about = unit.inertia_about(x, blade.slenderness)
         means = weights @ np.diagonal(about).reshape(elements, -1, 3)
         self.inertia = blade.mass_per_length * blade.length**2 * means
         self.add = Assembly(elements, inner=1, per_node=7)
