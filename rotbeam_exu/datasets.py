@@ -96,7 +96,7 @@ def _require_together(first: xr.Dataset, other: xr.Dataset) -> None:
                 f"two results differ in {name}, {shown(one)} and {shown(two)}: {_APART}"
             )
     for name in (name for name in first.variables if name in other.variables):
-        if not first[name].variable.identical(other[name].variable):
+        if not first[name].identical(other[name]):
             raise ValueError(f"two results differ in their numbers of {name}: {_APART}")
 
 
