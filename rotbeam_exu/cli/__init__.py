@@ -1,4 +1,4 @@
-"""The command line `rotbeam`. Only this package prints.
+"""The command line `rotbeam`. Only this package prints, and the bar of a film that is drawn.
 
 A command imports its libraries when it runs, so that --help and theory are quick.
 """

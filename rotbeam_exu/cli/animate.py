@@ -12,7 +12,7 @@ from cyclopts import Parameter
 from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
-from ..files.results import load, whole_file
+from ..files.results import load
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
@@ -119,9 +119,9 @@ def animate(
     if target.suffix == ".pvd":
         save_vtk(data, target, height=height, width=width)
     else:
-        with bar("drawing") as drawn, whole_file(target) as partial:
+        with bar("drawing") as drawn:
             animation.save_animation(
-                data, partial, beside=linear, rate=rate, progress=lambda n: drawn(n, count)
+                data, target, beside=linear, rate=rate, progress=lambda n: drawn(n, count)
             )
     size = sum(file.stat().st_size for file in (target, *target.with_suffix("").glob("*.vtu")))
     print_text(

@@ -110,16 +110,17 @@ class Workers:
     jobs
         Number of processes; by default one per core.
     cache
-        Folder with one file per finished spin-up; a stopped command continues from it.
+        Folder with one file per finished spin-up, and of converge per mesh; a stopped command
+        continues from it.
     """
 
     jobs: Jobs = None
     cache: Path | None = Path("results/cache")
 
     @contextmanager
-    def counted(self, title: str) -> Iterator[dict[str, Any]]:
-        """Give the options of what counts its pieces; Ctrl-C says where finished spin-ups are."""
-        kept = f"finished spin-ups are kept in the cache {self.cache}" if self.cache else ""
+    def counted(self, title: str, kind: str = "spin-ups") -> Iterator[dict[str, Any]]:
+        """Give the options of what counts its pieces; Ctrl-C says where those of a kind are."""
+        kept = f"finished {kind} are kept in the cache {self.cache}" if self.cache else ""
         with telling_what_is_kept(lambda: kept), counter(title) as progress:
             yield {"jobs": self.jobs, "cache": self.cache, "progress": progress}
 

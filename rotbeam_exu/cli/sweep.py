@@ -139,7 +139,8 @@ def converge(
     """Print the errors of a mesh and a step, and which to take.
 
     Natural frequencies and one spin-up, as `run` has it, on coarser and finer meshes and smaller
-    steps; one fit to all of them gives errors and orders. Writes netCDF and CSV.
+    steps; one fit to all of them gives errors and orders. Writes netCDF and CSV. Frequencies of a
+    mesh and spin-ups that are done stay in the cache: a call that was stopped goes on from there.
 
     Parameters
     ----------
@@ -166,7 +167,8 @@ def converge(
 
     def computed() -> xr.Dataset:
         exact = not no_exact
-        with workers.counted("spin-ups") as how:
+        pieces = "frequencies and spin-ups"
+        with workers.counted(pieces, pieces) as how:
             return comparison.refinement(case, count=count, tolerance=tolerance, exact=exact, **how)
 
     name = f"converge-{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
