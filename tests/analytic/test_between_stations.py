@@ -95,6 +95,18 @@ def test_no_section_is_stiffer_than_both_about_its_center():
         assert strongest.max() <= strongest[[0, -1]].max() * (1.0 + 1e-12)
 
 
+def test_principal_axes_that_turn_are_linear_in_the_axes_of_the_table():
+    """Equal sections, turned by α: (EI3 - EI2) sin²(α/2) more midway about the softer axis."""
+    S, angle = np.diag(STIFFNESS[0]), 0.4
+    turn = np.eye(6)
+    turn[4:, 4:] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    blade = Blade.from_stations([0.0, 1.0], [S, turn @ S @ turn.T], [MASS[0]] * 2)
+    bending = blade.section.matrices(np.array([0.5]))[0, 0, 4:, 4:]
+    soft, stiff = STIFFNESS[0, 4:]
+    known = soft + (stiff - soft) * np.sin(0.5 * angle) ** 2
+    assert np.linalg.eigvalsh(bending)[0] == pytest.approx(known, rel=1e-12)
+
+
 def test_a_blade_is_the_same_however_it_is_written(tmp_path):
     """Columns, matrices made by hand, TOML of both, and CSV."""
     centers = jumps(0.01, *CENTERS)
