@@ -21,7 +21,9 @@ _COUNT = 6  # modes
 
 
 def blade(*, shear: Flag = False, config: Path | None = None) -> None:
-    """Print mass, stiffness and the first frequencies, at rest and at the file's speed.
+    """Print mass, stiffness and first frequencies of a blade.
+
+    The frequencies are at rest and at the speed of the file.
 
     Of a table of stations it also prints by how much the frequencies at rest change with the other
     interpolation between stations, which is a convention.
