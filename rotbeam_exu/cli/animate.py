@@ -46,12 +46,12 @@ def animate(
     duration
         End of the motion [s].
     rate
-        Pictures a second of the film.
+        Frames per second of the film.
     beside
         Show the linear model in a floating frame beside the exact beam: it diverges above the first
         natural frequency at rest.
     run
-        Show a run in place of the exact beam: the file of `rotbeam run --stations`.
+        Show a finite element run instead of the exact beam: the file of `rotbeam run --stations`.
     height
         Height of a rectangular section, in the plane of bending [m]. With `--width` a .pvd has a
         body with the strain in its corners, without both a line.

@@ -11,7 +11,6 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import AnyBlade
-from analytic.exact.space.steady import lives_in_space
 from analytic.warning import warn
 
 from .job import Flag
@@ -49,12 +48,12 @@ def backbone(
     amplitude
         Amplitudes over the length, one or several.
     variant
-        CI, CE, FrI, FrE (unless given), P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours.
+        CI, CE, FrI, FrE, P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours. Without one, FrM and
+        the exact backbone.
     all_variants
         Every variant, one below the other.
     exact
-        Add the exact backbone, by harmonic balance on the exact beam; of a blade in space it comes
-        alone.
+        Add the exact backbone to a variant, by harmonic balance on the exact beam.
     mode
         Mode from which the exact backbone grows; beyond 1 it comes alone, too.
     functions
@@ -74,9 +73,8 @@ def backbone(
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
-    # The models are of a straight blade in its plane.
-    alone = mode != "lag 1" or (exact and lives_in_space(file.beam))
-    names = told or ([] if alone else ["FrE"])
+    names = told or (["FrM"] if mode == "lag 1" else [])
+    exact = exact or not told
     refused: list[Refusal] = []
     models = []
     for name in names:
@@ -84,10 +82,10 @@ def backbone(
             models.append(analytic.reduced_model(file.beam, omega, name))
         except ValueError as error:
             refused.append((name, str(error)))
-    if names and not models:
+    if told and not models:
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
-    if exact or mode != "lag 1":
+    if exact:
         orbits, failure = _exact(file.beam, omega, amplitude, mode, functions)
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
@@ -101,8 +99,8 @@ def backbone(
             "λ_ω > 0 softens"
             + ("; FrM5 has Eq. 63 with -κ (a/L)⁴" if any(model.kappa for model in models) else "")
         )
-    # All variants were asked for, one of them was not: only what was asked for by name must be had.
-    if refused and not all_variants:
+    # Only what is named must be had.
+    if refused and variant:
         raise ValueError("; ".join(_grouped(refused)))
     for sentence in _grouped(refused):
         warn(f"no answer: {sentence}")
@@ -170,9 +168,9 @@ def _print_coefficients(models: list[ReducedModel], orbits: Orbits | None, omega
     """Print one row of coefficients for each model, and one for the exact beam."""
     columns: dict[str, list[str]] = {"variant": [model.variant.name for model in models]}
     for title, name, form in (
-        ("ω_n\n[rad/s]", "omega_n", ".6f"), ("Eq. 41's\ng1", "g1", ".6g"),
-        ("Eq. 41's\ng2", "g2", ".6g"), ("Eq. 64's\nλ_ω", "lambda_omega", ".6f"),
-        ("Eq. 65's\nλ_x", "lambda_x", ".6f"), ("κ", "kappa", ".6f"),
+        ("ω_n\n[rad/s]", "omega_n", ".6f"), ("stiffness g1,\nEq. 41", "g1", ".6g"),
+        ("inertia g2,\nEq. 41", "g2", ".6g"), ("softening λ_ω,\nEq. 64", "lambda_omega", ".6f"),
+        ("harmonic 3 λ_x,\nEq. 65", "lambda_x", ".6f"), ("κ", "kappa", ".6f"),
     ):  # fmt: skip
         columns[title] = [format(getattr(model, name), form) for model in models]
         if orbits is not None:

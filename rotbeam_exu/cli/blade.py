@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import get_args
 
 import numpy as np
@@ -14,27 +15,30 @@ from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 
 from .job import Flag
 from .motion import configured
-from .options import Config
 from .output import bar, formatted, print_columns, print_line, print_note
 
 _COUNT = 6  # modes
 
 
-def blade(*, shear: Flag = False, config: Config = None) -> None:
-    """Print mass, stiffness and the first frequencies, at rest and at the file's speed.
+def blade(*, shear: Flag = False, config: Path | None = None) -> None:
+    """Print mass, stiffness and first frequencies of a blade.
 
-    For a table of stations also by how much the frequencies change with the other interpolation of
-    its sections: what is not known between stations is a convention.
+    The frequencies are at rest and at the speed of the file.
+
+    Of a table of stations it also prints by how much the frequencies at rest change with the other
+    interpolation between stations, which is a convention.
 
     Parameters
     ----------
     shear
         Let the sections shear, by GA2 and GA3 of a table of stations.
+    config
+        TOML file with the beam or blade, and optionally a speed; without it, the paper's beam.
 
     Examples
     --------
     $ rotbeam blade
-    $ rotbeam blade --config blade.toml --shear
+    $ rotbeam blade --config beam.toml
     """
     file = configured(config, "motion.omega")
     beam, omega = file.beam.blade, file.motion.get("omega", 0.0)

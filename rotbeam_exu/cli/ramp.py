@@ -6,6 +6,7 @@ import numpy as np
 
 import analytic
 from analytic import AnyBlade, SpinUp
+from analytic.beam import require_planar
 from analytic.input_checks import positive, whole_number
 
 from ..fem.lazily import require_exudyn
@@ -54,6 +55,7 @@ def ramp(
 
     file = configured(config, "motion.omega", "numerics.element", "numerics.elements")
     beam = file.beam
+    require_planar(beam, "ramp is for", "rotbeam reference, which has one ramp in space")
     motion = motion_of(file, omega=omega)
     omega = motion.spin_up.omega
     case = Discretization(element=element, elements=elements).over(file.numerics).case(beam, motion)

@@ -134,7 +134,7 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
         "steady frequency",
         f"ω_NL = {steady.frequency:.6f} rad/s over {steady.cycles} cycles, "
         f"ω_NL/ω_n = {steady.frequency / found.omega_n:.6f}; "
-        f"± {steady.frequency_error:.1g} rad/s, the estimator's, without mesh and step",
+        f"± {steady.frequency_error:.1g} rad/s (fit only; mesh and step not included)",
     )
     for title, text in found.lines():
         print_line(title, text)
@@ -144,7 +144,7 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
     if "out_of_plane" in data.attrs:
         print_line("plane", data.attrs["out_of_plane"])
     print_line("wall time", f"{data.attrs['wall_time']:.2f} s")
-    print_line("verdict", f"checks {data.attrs['verdict']}")
+    print_line("verdict", found.sentence)
 
 
 def reference(

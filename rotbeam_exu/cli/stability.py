@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import analytic
+from analytic.beam import require_planar
 from analytic.input_checks import not_negative
 
 from ..files.result_tables import parts
@@ -61,6 +62,9 @@ def stability(
     file = configured(config, "motion.omega")
     omega = omega_of(file, omega)
     blade = shape.of(file.beam)
+    require_planar(
+        blade, "planar motion is of", "rotbeam backbone --exact, whose orbits are in space"
+    )
     if blade.section.out_of_plane is None:
         raise ValueError(
             "the section out of the plane is unknown: give --section rectangle or --section tube, "

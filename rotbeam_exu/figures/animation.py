@@ -199,7 +199,10 @@ def _bar(count: int) -> Iterator[Callable[[int], None]]:
 def check_format(path: Path) -> None:
     """Refuse an ending that cannot be written here, before any long work."""
     if path.suffix not in (".gif", ".mp4"):
-        raise ValueError(f"cannot write {path.name!r}: the ending must be .gif or .mp4")
+        raise ValueError(
+            f"cannot write {path.name!r}: the ending must be .gif or .mp4, or .pvd for ParaView, "
+            "of rotbeam animate and save_vtk"
+        )
     if path.suffix == ".mp4" and not FFMpegWriter.isAvailable():
         raise ValueError(f"cannot write {path.name!r}: MP4 needs ffmpeg; install it or take .gif")
 

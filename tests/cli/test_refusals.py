@@ -8,9 +8,11 @@ import pytest
 
 from rotbeam_exu.cli import _COMMANDS, app
 from tests.beams import BLADE_TOML
+from tests.exudyn.test_beam_file import STATIONS
 
 FILES = {
-    "blade": BLADE_TOML, "slip": "[motion]\nomga = 6", "load": "[[loads]]\nkind = 'Gravity'\n",
+    "stations": STATIONS, "blade": BLADE_TOML, "slip": "[motion]\nomga = 6",
+    "load": "[[loads]]\nkind = 'Gravity'\n",
     "motion": "[motion]\nomega = 4", "element": "[numerics]\nelement = 'cabel'",
     "frame": "[numerics]\nframe = 'rotated'",
 }  # fmt: skip
@@ -68,7 +70,10 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("backbone --omega 6 --format text", 'Choose from: "table", "csv"'),
         ("animate --beside cable", "linear"),
         ("animate --height 0.04 --out film.pvd", "give width too, or leave both out"),
-        ("animate --out beam.avi", "the ending must be .gif or .mp4"),
+        ("animate --out beam.avi", "the ending must be .gif or .mp4, or .pvd for ParaView"),
+        ("run --config ../stations.toml", "or on the command line rotbeam reference"),
+        ("ramp --config ../stations.toml", "ramp is for a straight blade in its plane, and this"),
+        (f"{STABILITY}--config ../stations.toml", "planar motion is of a straight blade in its"),
         ("explore --out explorer.pdf", "the ending must be .html"),
         ("judge mine --report a.pdf", "the ending must be .html"),
         ("judge mine --json a.txt", "the ending must be .json"),
