@@ -16,8 +16,8 @@ from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from .job import Flag
-from .motion import configured, omega_of
-from .options import Amplitudes, Config, Omega, Whole
+from .motion import configured, omega_of, theory_of
+from .options import Amplitudes, Config, Omega, TheoryPairs, Whole
 from .output import Format, bar, print_columns, print_note
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ def backbone(
     exact: Flag = False,
     mode: Whole = 1,
     functions: Whole = 16,
+    theory: TheoryPairs = None,
     config: Config = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
@@ -70,10 +71,12 @@ def backbone(
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
     $ rotbeam backbone --omega 6 --mode 2 --amplitude 0.02 0.05
     """
-    file = configured(config, "motion.omega")
-    omega = omega_of(file, omega)
+    file = configured(config, "motion.omega", "theory")
+    omega, law = omega_of(file, omega), theory_of(file, theory)
     if whole_number("mode", mode) > 1 and (variant is not None or all_variants):
         raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")
+    if law != analytic.Theory() and not exact and mode == 1:
+        raise ValueError(f"{law} is a theory of the exact beam: add --exact")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
     # The models are of a straight blade in its plane.
     alone = mode > 1 or (exact and lives_in_space(file.beam))
@@ -89,7 +92,7 @@ def backbone(
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
     if exact or mode > 1:
-        orbits, failure = _exact(file.beam, omega, amplitude, mode, functions)
+        orbits, failure = _exact(file.beam, omega, amplitude, mode, functions=functions, theory=law)
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
         columns |= _exact_columns(orbits, amplitude, len(models))
@@ -120,12 +123,12 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 
 def _exact(
-    beam: AnyBlade, omega: float, amplitude: list[float], mode: int, functions: int
+    beam: AnyBlade, omega: float, amplitude: list[float], mode: int, **how: Any
 ) -> tuple[Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:
         with bar("exact orbits"):
-            return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
+            return analytic.periodic_orbits(beam, omega, amplitude, mode, **how), ""
     except analytic.AmplitudeNotReachedError as error:
         if error.orbits is None:
             raise

@@ -37,14 +37,22 @@ Amplitudes = Annotated[
 Config = Annotated[
     Path | None,
     Parameter(
-        help="TOML file with [beam] or [blade], and optionally [motion], [numerics] and [[loads]]; "
-        "options given here replace its values. Without a file: the paper's beam."
+        help="TOML file with [beam] or [blade], and optionally [motion], [numerics], [theory] and "
+        "[[loads]]; options given here replace its values. Without a file: the paper's beam."
     ),
 ]
 Omega = Annotated[
     float | None,
     Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
 ]
+TheoryPairs = Annotated[
+    list[str] | None,
+    Parameter(
+        name="--theory", consume_multiple=True, metavar="KEY=VALUE",
+        help="Theory of the exact beam, pairs of extension, shear, engesser, rotary_inertia and "
+        "trapeze, as trapeze=false shear=0.3; over [theory] of the file.",
+    ),
+]  # fmt: skip
 SteadySpeed = Annotated[
     float | None,
     Parameter(
