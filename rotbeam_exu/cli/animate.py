@@ -16,8 +16,8 @@ from ..files.results import load, whole_file
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
-from .motion import chosen_times, configured, motion_of, slower_than_paper, theory_of
-from .options import Config, RampTime, SteadySpeed, TheoryPairs, Whole
+from .motion import chosen_times, configured, motion_of, slower_than_paper
+from .options import Config, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
 from .output import bar, print_text
 
 

@@ -16,8 +16,8 @@ from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from .job import Flag
-from .motion import configured, omega_of, theory_of
-from .options import Amplitudes, Config, Omega, TheoryPairs, Whole
+from .motion import configured, omega_of
+from .options import Amplitudes, Config, Omega, TheoryPairs, Whole, theory_of
 from .output import Format, bar, print_columns, print_note
 
 if TYPE_CHECKING:

@@ -17,8 +17,8 @@ from analytic.exact.space.steady import lives_in_space
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
-from .motion import chosen_speeds, configured, theory_of
-from .options import SectionOptions, TheoryPairs, Whole
+from .motion import chosen_speeds, configured
+from .options import SectionOptions, TheoryPairs, Whole, theory_of
 from .output import bar, formatted, print_columns
 
 if TYPE_CHECKING:

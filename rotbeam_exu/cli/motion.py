@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import sys
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from importlib import import_module
@@ -13,13 +12,12 @@ from typing import TYPE_CHECKING, Any, Self
 
 from cyclopts import Parameter
 
-from analytic import AnyBlade, Beam, SpinUp, Theory
+from analytic import AnyBlade, Beam, SpinUp
 from analytic.input_checks import positive
 from analytic.loads import Load
 from analytic.warning import warn
 
 from ..files.beam_file import RunFile, load_run_file
-from ..files.beam_tables import THEORY, require_keys
 from ..runs import Frame
 from .options import Dampings, Loads, Whole
 
@@ -131,20 +129,6 @@ def omega_of(file: RunFile, omega: float | None) -> float:
             "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"
         )
     return known
-
-
-def theory_of(file: RunFile, given: Sequence[str] | None) -> Theory:
-    """Return the theory of --theory, whose pairs are lines of TOML, over [theory] of the file."""
-    pairs = given or ()
-    try:
-        told = tomllib.loads("\n".join(pairs))
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(
-            f"--theory takes key=value as in a file, as trapeze=false shear=0.3, got "
-            f"{' '.join(pairs)!r}: {error}"
-        ) from error
-    require_keys(told, THEORY, "--theory")
-    return Theory(**{**file.theory, **told})
 
 
 def motion_of(file: RunFile, **options: float | None) -> ChosenMotion:

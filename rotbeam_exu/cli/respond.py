@@ -14,8 +14,8 @@ from analytic.warning import warn
 from ..lazily import xr
 from ..runs.attributes import theory_attributes
 from .job import Results
-from .motion import configured, omega_of, theory_of
-from .options import Config, Dampings, Loads, NoFigure, TheoryPairs, Whole, option_of
+from .motion import configured, omega_of
+from .options import Config, Dampings, Loads, NoFigure, TheoryPairs, Whole, option_of, theory_of
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from ..files.result_tables import parts
 from ..lazily import xr
 from ..runs.attributes import beam_attributes, theory_attributes
 from .job import Results
-from .motion import configured, omega_of, theory_of
-from .options import Amplitudes, Config, Omega, SectionOptions, TheoryPairs, Whole
+from .motion import configured, omega_of
+from .options import Amplitudes, Config, Omega, SectionOptions, TheoryPairs, Whole, theory_of
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
