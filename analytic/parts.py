@@ -44,6 +44,12 @@ def scaled(offset: Offset, length: float) -> Offset:
     return offset[0] / length, offset[1] / length
 
 
+def _checked_kinks(kinks: Any) -> tuple[tuple[float, float, float], ...]:
+    if not isinstance(kinks, tuple | list | np.ndarray):
+        raise TypeError(f"kinks must be several, as [(5.0, 0.0, 0.3)], got {shown(kinks)}")
+    return tuple(map(_checked_kink, kinks))
+
+
 def _checked_kink(kink: Any) -> tuple[float, float, float]:
     if not isinstance(kink, tuple | list | np.ndarray) or len(kink) != 3:
         raise TypeError(
@@ -113,7 +119,7 @@ class Line(Described):
             precone=checked_angle("precone", self.precone, _STEEP),
             mass_offset=checked_offset("mass_offset", self.mass_offset),
             tension_offset=checked_offset("tension_offset", self.tension_offset),
-            kinks=tuple(map(_checked_kink, self.kinks)),
+            kinks=_checked_kinks(self.kinks),
         )
 
     def require_along(self, length: float) -> None:

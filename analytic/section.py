@@ -14,7 +14,7 @@ import numpy as np
 
 from .arrays import FloatArray, Profile, evaluated, in_units, stations, times
 from .description import Described
-from .input_checks import checked_profile, positive, require_along, warn_if_giga
+from .input_checks import checked_profile, finite_number, positive, require_along, warn_if_giga
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,6 +149,7 @@ class Section(Described):
 
     def tapered(self, width: float, height: float) -> Section:
         """Return the section times (1 - width x/L)(1 - height x/L), and height cubed in bending."""
+        width, height = finite_number("width", width), finite_number("height", height)
         if self.out_of_plane is not None and width != height:
             raise ValueError(
                 f"a width that tapers by {width:g} and a height by {height:g} change the ratios "

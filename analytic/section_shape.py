@@ -165,15 +165,15 @@ def _sorts(cls: type[SectionShape]) -> dict[str, str]:
     hints = get_type_hints(cls, include_extras=True)
     for field in fields(cls):
         hint = hints[field.name]
-        told = [
+        marks = [
             one for part in (hint, *get_args(hint)) for one in getattr(part, "__metadata__", ())
         ]
-        if not told or told[0] not in _CHECKS:
+        if not marks or marks[0] not in _CHECKS:
             raise TypeError(
                 f"{cls.__name__} does not say what {field.name} is: let its type be Length, Ratio "
                 "or Count of analytic.section_shape, each as | None where it may be left out"
             )
-        sorts[field.name] = told[0]
+        sorts[field.name] = marks[0]
     return sorts
 
 

@@ -64,13 +64,13 @@ def _offsets(name: str, values: ArrayLike, x: FloatArray) -> FloatArray:
 
 def _table(name: str, values: ArrayLike, columns: tuple[str, ...], x: FloatArray) -> FloatArray:
     """Return columns (stations, columns) or matrices (stations, 6, 6)."""
-    found = finite_array(name, values, None)
-    if found.shape not in ((x.size, len(columns)), (x.size, 6, 6)):
+    table = finite_array(name, values, None)
+    if table.shape not in ((x.size, len(columns)), (x.size, 6, 6)):
         raise ValueError(
             f"{name} must have the columns {', '.join(columns)}, or be 6x6 matrices, at each of "
-            f"the {x.size} stations, got {found.shape}"
+            f"the {x.size} stations, got {table.shape}"
         )
-    return found
+    return table
 
 
 def _stiffness_of(columns: FloatArray, tension: FloatArray, shear: FloatArray) -> FloatArray:
@@ -106,6 +106,11 @@ def section_of_table(
 ) -> StationSection:
     """Return the section of a table of `Blade.from_stations`, about the blade's line."""
     at = finite_values("x", x, "m")
+    if at.size < 2 or at[0] != 0.0:
+        raise ValueError(
+            f"x must be two stations or more from 0 to the length, got {at.size} from {at[0]:g} to "
+            f"{at[-1]:g} m"
+        )
     require_ascending("x", at.tolist(), "m")
     places = {name: _offsets(name, values, at) for name, values in centers.items()}
     S, M = _table("stiffness", stiffness, STIFFNESSES, at), _table("mass", mass, MASSES, at)
@@ -189,19 +194,29 @@ class StationSection(Section):
 
     @cached_property
     def _about_centers(self) -> FloatArray:
-        """T and T⁻ᵀ S T⁻¹ of stiffness and mass, which are linear, (2, 2, stations, 6, 6)."""
-        if self.interpolation == "matrix":
-            return np.stack((np.broadcast_to(np.eye(6), self._arrays.shape), self._arrays))
+        """T and T⁻ᵀ S T⁻¹ of stiffness and mass, (2, 2, stations, 6, 6)."""
         onto = np.stack([_to_centers(kind) for kind in self._arrays])
         back = 2.0 * np.eye(6) - onto
         return np.stack((onto, np.swapaxes(back, -1, -2) @ self._arrays @ back))
+
+    @cached_property
+    def _linear(self) -> FloatArray:
+        """T and the matrices about its centers, linear between stations; or about the line."""
+        if self.interpolation == "components":
+            return self._about_centers
+        return np.stack((np.broadcast_to(np.eye(6), self._arrays.shape), self._arrays))
+
+    @property
+    def stiffnesses(self) -> FloatArray:
+        """EA, GA2, GA3, GJ, EI2 and EI3 about their centers at the stations, (stations, 6)."""
+        return np.asarray(np.einsum("sii->si", self._about_centers[1, 0]))
 
     def matrices(self, x: FloatArray) -> FloatArray:
         """Return stiffness and mass at `x` between stations, in their unit, (2, places, 6, 6)."""
         at = np.array(self.x)
         first = np.minimum(np.searchsorted(at, x, side="right"), at.size - 1) - 1
         share = ((x - at[first]) / np.diff(at)[first])[:, None, None]
-        ends = self._about_centers
+        ends = self._linear
         onto, about = (1.0 - share) * ends[:, :, first] + share * ends[:, :, first + 1]
         return np.asarray(np.swapaxes(onto, -1, -2) @ about @ onto)
 
@@ -212,7 +227,7 @@ class StationSection(Section):
     @property
     def has_kinks_in_mass(self) -> bool:
         """Whether the slope of the center of mass, or of the mass about it, changes anywhere."""
-        ends = self._about_centers[:, 1]
+        ends = self._linear[:, 1]
         size = np.sqrt(np.abs(np.einsum("sii->si", self._arrays[1])).max(axis=0))
         scale = np.stack((np.abs(ends[0]).max(axis=0), np.outer(size, size)))
         slopes = np.diff(ends, axis=1) / np.diff(self.x)[:, None, None]

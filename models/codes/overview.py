@@ -1,6 +1,6 @@
-"""Other codes, compared: two tables and a figure, from the folders beside this script.
+"""Other codes, compared: three tables and a figure, from the folders beside this script.
 
-``python models/codes/overview.py`` prints the tables and writes results/codes.svg.
+``python models/codes/overview.py`` prints the tables and writes results/codes.png.
 """
 
 from __future__ import annotations
@@ -9,14 +9,14 @@ import math
 import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import cycle
 from pathlib import Path
 
 import numpy as np
 from common import HERE
-from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
+from rotbeam_exu.figures.style import columns, house_axes, save_figure
+from rotbeam_exu.paper import BLUE, RED
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order
 from rotbeam_exu.verification.judgement import Judgement, judged
@@ -25,16 +25,27 @@ from rotbeam_exu.verification.submission import Submission
 from rotbeam_exu.verification.submission_files import read_submission
 
 CASE, ERRORS = "S1", (1e-2, 1e-3)
-"""Case whose cost is compared, and the errors of q(t), over max|q|, at which it is."""
+"""Case whose cost is compared, and the errors of q(t), over max|q|, at which it is.
+
+A cost is that of the mesh and the step that the fit to all runs asks for. No run has a cost by
+itself: its errors of mesh and step may cancel.
+"""
+
+
+_SHARES = np.linspace(0.01, 0.99, 99)  # of the mesh in an error
 
 
 @dataclass(frozen=True)
 class Code:
-    """A folder, judged today; `unit` is the CPU time of the kit's starter there [s]."""
+    """A folder, judged today; `unit` is the CPU time of the kit's starter there [s].
+
+    Settings are the words of its README.
+    """
 
     handed: Submission
     found: Judgement
     unit: float
+    settings: str = ""
 
     @property
     def name(self) -> str:
@@ -64,19 +75,49 @@ class Code:
         return sorted((run.cpu / self.unit, float(np.abs(d).max())) for run, d in of.items())
 
     @property
-    def front(self) -> list[tuple[float, float]]:
-        """The runs that are better than all cheaper ones."""
-        runs = self.runs
-        return [one for k, one in enumerate(runs) if all(one[1] < cheap[1] for cheap in runs[:k])]
+    def fit(self) -> Convergence | None:
+        """Errors of mesh and step in CASE; None if the runs leave them open."""
+        fit = self.found.findings[CASE]["history"].runs
+        return fit if fit is not None and math.isfinite(fit.bar) else None
 
-    def cost(self, error: float) -> str:
-        """Return the CPU time over the unit at an error, interpolated along the front."""
-        times, errors = np.log(self.front).T
-        if math.log(error) >= errors[0]:
-            return f"< {_two(math.exp(times[0]))}"
-        if math.log(error) < errors[-1]:
-            return f"> {_two(math.exp(times[-1]))}"
-        return _two(math.exp(np.interp(-math.log(error), -errors, times)))
+    def needed(self, error: float) -> tuple[float, float]:
+        """Return the mesh and the step [s] of least work whose errors add up to one, by the fit.
+
+        The mesh is not coarser than any that was run. The step is at most the largest one that was
+        run on a mesh as fine, or on the finest: others may not be stable.
+        """
+        fit = self.fit
+        assert fit is not None
+        n, h = fit.elements, fit.steps
+        mesh, step = abs(float(fit.in_mesh[-1])), max(abs(float(fit.in_step[-1])), 1e-30)
+        elements = n[-1] * (mesh / (error * _SHARES)) ** (1.0 / fit.powers[0])
+        elements = np.maximum(elements, n.min())
+        steps = h[-1] * (error * (1.0 - _SHARES) / step) ** (1.0 / fit.powers[1])
+        steps = np.minimum(steps, [h[n >= min(one, n.max())].max() for one in elements])
+        least = np.argmin(elements / steps)
+        return float(elements[least]), float(steps[least])
+
+    @property
+    def law(self) -> tuple[float, float, float]:
+        """Power p and factor c of CPU time over the unit, c (elements/step)ᵖ; its worst misfit."""
+        runs = self.found.histories[CASE].runs
+        work = np.log([run.elements / run.refinement for run in runs])
+        times = np.log([run.cpu / self.unit for run in runs])
+        power, constant = np.polyfit(work, times, 1)
+        misfit = np.abs(times - power * work - constant).max()
+        return float(power), math.exp(constant), math.exp(misfit)
+
+    def cost(self, error: float) -> float:
+        """Return the CPU time over the unit of the mesh and the step that are needed."""
+        power, factor, _ = self.law
+        elements, step = self.needed(error)
+        return factor * (elements / step) ** power
+
+    def is_outside(self, error: float) -> bool:
+        """Return whether what is needed is more work than any run had, or less."""
+        elements, step = self.needed(error)
+        work = [run.elements / run.refinement for run in self.found.histories[CASE].runs]
+        return not min(work) <= elements / step <= max(work)
 
 
 def codes() -> list[Code]:
@@ -85,7 +126,9 @@ def codes() -> list[Code]:
     for record in sorted(HERE.glob("*/record.toml")):
         unit = float(tomllib.loads(record.read_text())["calibration_s"])
         handed = read_submission(record.parent / "submission")
-        made.append(Code(handed, judged(handed), unit))
+        _, *words = (record.parent / "README.md").read_text(encoding="utf-8").splitlines()
+        settings = " ".join(line for line in words if line and "authors of the bench" not in line)
+        made.append(Code(handed, judged(handed), unit, settings))
     return sorted(made, key=lambda one: one.name.lower())
 
 
@@ -104,43 +147,65 @@ def costs(of: Iterable[Code]) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the table of errors, orders and cost in CASE, of timed codes."""
     rows = []
     for one in (one for one in of if one.is_timed):
-        finding = one.found.findings[CASE]["history"]
-        fit, finest = finding.runs, one.found.histories[CASE].finest
+        fit, finest = one.fit, one.found.histories[CASE].finest
+        power, _, misfit = one.law
         cells = [
             one.name,
             f"{finest.elements}, {finest.step_in_words}",
-            f"{abs(finding.difference):.0e}",
+            f"{float(np.abs(one.found.histories[CASE].differences[finest]).max()):.0e}",
+            _two(finest.cpu / one.unit),
+            *(_order(fit.orders.get(part) if fit else None) for part in ("mesh", "step")),
+            f"{power:.1f} (× {misfit:.1f})",
         ]
-        cells += [_two(finest.cpu / one.unit), *map(one.cost, ERRORS)]
-        cells += [_order(fit.orders.get(part)) for part in ("mesh", "step")] if fit else ["", ""]
-        rows.append([*cells, _needed(fit, ERRORS[-1]) if fit else ""])
-    at = [f"at {error:g}" for error in ERRORS]
-    header = ["code", "finest run", "its error", "CPU", *at, "order, mesh", "order, step"]
-    return [*header, f"a run within {ERRORS[-1]:g}"], rows
+        if fit:
+            elements, step = one.needed(ERRORS[-1])
+            cells.append(f"{math.ceil(elements)}, {_two(1e3 * step)} ms")
+            cells += [
+                _two(one.cost(error)) + " †" * int(one.is_outside(error)) for error in ERRORS[::-1]
+            ]
+        rows.append(cells + [""] * (10 - len(cells)))
+    header = ["code", "finest run", "its error", "its CPU", "order, mesh", "order, step"]
+    header += ["power of CPU", f"needed for {ERRORS[-1]:g}"]
+    return [*header, *(f"CPU at {error:g}" for error in ERRORS[::-1])], rows
+
+
+def conditions(of: Iterable[Code]) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of the table of machines and settings, of timed codes."""
+    header = ["code", "processor", "starter [s]", "elements and settings"]
+    return header, [
+        [one.name, one.found.declaration.machine, f"{one.unit:.2f}", one.settings]
+        for one in of
+        if one.is_timed
+    ]
 
 
 def figure(of: Iterable[Code]) -> Axes:
-    """Draw errors of CASE over CPU time, of timed codes."""
-    _, ax = plt.subplots(figsize=(5.0, 3.4), layout="constrained")
-    ax.set_prop_cycle(color=plt.colormaps["tab10"].colors)  # as many as there are codes
-    for one, mark in zip((one for one in of if one.is_timed), cycle("os^vD<>PX*ph")):
-        (line,) = ax.loglog(*zip(*one.front, strict=True), "-", lw=0.9)
-        ax.loglog(*zip(*one.runs, strict=True), mark, ms=5, color=line.get_color(), label=one.name)
-    ax.set(xlabel="CPU time over that of the starter", ylabel="error of q(t) over max|q|")
-    ax.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    return ax
+    """Draw errors of CASE over CPU time, a panel for each timed code; return the first."""
+    timed = [one for one in of if one.is_timed]
+    rows = math.ceil(len(timed) / 3)
+    with house_axes(
+        None, columns(), 0.3 + 1.4 * rows, nrows=rows, ncols=3, sharex=True, sharey=True
+    ) as grid:
+        for one, ax in zip(timed, grid.flat, strict=False):
+            _draw(one, ax)
+        for ax in grid.flat[len(timed) :]:
+            ax.set_visible(False)
+        for ax in grid[-1]:
+            ax.set_xlabel("CPU time over that of the starter")
+        grid[rows // 2, 0].set_ylabel("error of q(t) over max|q|")
+    first: Axes = grid[0, 0]
+    return first
 
 
-def _needed(fit: Convergence, error: float) -> str:
-    """Return the mesh and the step that would leave half of an error each."""
-    mesh, step = abs(float(fit.in_mesh[-1])), abs(float(fit.in_step[-1]))
-    elements = fit.elements[-1] * (2.0 * mesh / error) ** (1.0 / fit.powers[0])
-    smaller = fit.steps[-1] * (0.5 * error / step) ** (1.0 / fit.powers[1]) if step else math.inf
-    largest = fit.steps.max()
-    of_step = (
-        f"{_two(1e3 * smaller)} ms" if smaller < largest else f"any step to {1e3 * largest:g} ms"
-    )
-    return f"{math.ceil(elements)} elements, {of_step}"
+def _draw(one: Code, ax: Axes) -> None:
+    ax.set_title(one.name, loc="left")
+    ax.axhline(ERRORS[-1], color="0.6", lw=0.6, ls="--")
+    ax.loglog(*zip(*one.runs, strict=True), "o", ms=4, color=BLUE)
+    if one.fit:
+        errors = np.geomspace(3e-4, 3e-1, 61)
+        inner = [e for e in errors if one.needed(e)[0] > one.fit.elements.min()]
+        ax.loglog([one.cost(e) for e in inner], inner, color="0.6", zorder=0)
+        ax.loglog([one.cost(ERRORS[-1])], [ERRORS[-1]], "s", ms=5, mfc="none", color=RED)
 
 
 def _order(order: Order | None) -> str:
@@ -163,5 +228,7 @@ if __name__ == "__main__":
     _printed(*verdicts(judged_codes))
     print()
     _printed(*costs(judged_codes))
+    print()
+    _printed(*conditions(judged_codes))
     Path("results").mkdir(exist_ok=True)
-    figure(judged_codes).get_figure().savefig("results/codes.svg")
+    save_figure(figure(judged_codes), "results/codes")

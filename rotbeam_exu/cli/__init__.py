@@ -1,4 +1,4 @@
-"""The command line `rotbeam`. Only this package prints.
+"""The command line `rotbeam`. Only this package prints, and the bar of a film that is drawn.
 
 A command imports its libraries when it runs, so that --help and theory are quick.
 """
@@ -6,7 +6,6 @@ A command imports its libraries when it runs, so that --help and theory are quic
 from __future__ import annotations
 
 import inspect
-import math
 import os
 import re
 import signal
@@ -38,7 +37,7 @@ app = cyclopts.App(
 _COMMANDS = (
     "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
     "converge", "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge",
-    "schema", "doctor",
+    "schema", "doctor", "blade",
 )  # fmt: skip
 """In the order of the work; each is imported when it is called."""
 
@@ -78,14 +77,14 @@ app.register_install_completion_command("--complete", help="Let the shell comple
 INTERNAL = 70
 """Exit code of an error of the program itself, EX_SOFTWARE of sysexits.h."""
 
+UNREAD = 141
+"""Exit code where nobody reads on, as a shell has it of SIGPIPE."""
+
 _FORESEEN = (
     cyclopts.CycloptsError, ImportError, MemoryError, OSError, OverflowError, RuntimeError,
     TypeError, ValueError,
 )  # fmt: skip
 """Errors with a sentence for the user, on input or on a run that fails."""
-
-_SPEED_UNITS = {"--rpm": math.pi / 30.0, "--hz": 2.0 * math.pi, "--rps": 2.0 * math.pi}
-"""Options that do not exist, and their units in rad/s."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -106,7 +105,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except BrokenPipeError:
             # Who reads has read enough, as `head` does; the exit must not flush into it again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            sys.exit(1)
+            sys.exit(UNREAD)
         except (Exception, KeyboardInterrupt) as error:
             told = isinstance(error, KeyboardInterrupt) or not met
             text, code = _ending(error if told else KeyboardInterrupt())
@@ -137,11 +136,14 @@ def _ending(error: BaseException) -> tuple[str, int]:
     """Return the sentence on an error, and the exit code."""
     if isinstance(error, KeyboardInterrupt):
         return f"interrupted; {str(error) or 'nothing was written'}", 130
-    if isinstance(error, cyclopts.UnknownOptionError):
-        return _unknown_option(error), 2
+    if isinstance(error, cyclopts.UnknownOptionError | cyclopts.UnusedCliTokensError):
+        return _not_taken(error), 2
     if isinstance(error, cyclopts.MissingArgumentError):
         command = " ".join(["rotbeam", *(error.command_chain or ())])
-        return f"{error} {command} --help explains it", 2
+        missing = str(error)
+        if error.keyword is None and error.argument is not None and "Did you" not in missing:
+            missing = f"{error.argument.name} is missing."
+        return f"{missing} {command} --help explains it", 2
     if isinstance(error, OSError) and error.filename:
         return f"{error.filename}: {error.strerror}", 2
     if isinstance(error, _FORESEEN):
@@ -157,10 +159,15 @@ def _internal(error: BaseException) -> str:
     return f"internal error, not of your input: {said} ({trace}); please report it with the command"
 
 
-def _unknown_option(error: cyclopts.UnknownOptionError) -> str:
+def _not_taken(error: cyclopts.UnknownOptionError | cyclopts.UnusedCliTokensError) -> str:
     """Name a similar option, or the unit of a speed that was given in another one."""
+    from .options import SPEED_UNITS, in_rad_per_second
+
+    if isinstance(error, cyclopts.UnusedCliTokensError):
+        words = error.unused_tokens or []
+        units = [word for word in words if word.lower() in SPEED_UNITS]
+        return in_rad_per_second(units[0]) if units else f"no option takes {' '.join(words)!r}"
     given = str(error.token.keyword or error.token.value).partition("=")[0].lower()
-    if given in _SPEED_UNITS:
-        unit = f"1 {given.lstrip('-')} is {_SPEED_UNITS[given]:.6g} rad/s"
-        return f"there is no option {given}: speeds are in rad/s, as --omega, and {unit}"
+    if (unit := given.lstrip("-")) in SPEED_UNITS:
+        return f"there is no option {given}: {in_rad_per_second(unit)}"
     return f"{error} --help lists the options"

@@ -12,12 +12,12 @@ from cyclopts import Parameter
 from analytic import linear_response, spin_up_response
 from analytic.input_checks import positive, whole_number
 
-from ..files.results import load, whole_file
+from ..files.results import load
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
 from .motion import chosen_times, configured, motion_of, slower_than_paper
-from .options import Config, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
+from .options import Config, Number, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
 from .output import bar, print_text
 
 
@@ -25,12 +25,12 @@ def animate(
     *,
     omega: SteadySpeed = None,
     ramp_time: RampTime = None,
-    duration: float | None = None,
+    duration: Number | None = None,
     rate: Whole = 20,
     beside: Literal["linear"] | None = None,
     run: Path | None = None,
-    height: float | None = None,
-    width: float | None = None,
+    height: Number | None = None,
+    width: Number | None = None,
     theory: TheoryPairs = None,
     config: Config = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
@@ -47,12 +47,12 @@ def animate(
     duration
         End of the motion [s].
     rate
-        Pictures a second of the film.
+        Frames per second of the film.
     beside
         Show the linear model in a floating frame beside the exact beam: it diverges above the first
         natural frequency at rest.
     run
-        Show a run in place of the exact beam: the file of `rotbeam run --stations`.
+        Show a finite element run instead of the exact beam: the file of `rotbeam run --stations`.
     height
         Height of a rectangular section, in the plane of bending [m]. With `--width` a .pvd has a
         body with the strain in its corners, without both a line.
@@ -123,9 +123,9 @@ def animate(
     if target.suffix == ".pvd":
         save_vtk(data, target, height=height, width=width)
     else:
-        with bar("drawing") as drawn, whole_file(target) as partial:
+        with bar("drawing") as drawn:
             animation.save_animation(
-                data, partial, beside=linear, rate=rate, progress=lambda n: drawn(n, count)
+                data, target, beside=linear, rate=rate, progress=lambda n: drawn(n, count)
             )
     size = sum(file.stat().st_size for file in (target, *target.with_suffix("").glob("*.vtu")))
     print_text(

@@ -11,7 +11,6 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import AnyBlade
-from analytic.exact.space.steady import lives_in_space
 from analytic.input_checks import whole_number
 from analytic.warning import warn
 
@@ -51,12 +50,12 @@ def backbone(
     amplitude
         Amplitudes over the length, one or several.
     variant
-        CI, CE, FrI, FrE (unless given), P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours.
+        CI, CE, FrI, FrE, P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours. Without one, FrM and
+        the exact backbone.
     all_variants
         Every variant, one below the other.
     exact
-        Add the exact backbone, by harmonic balance on the exact beam; of a blade in space it comes
-        alone.
+        Add the exact backbone to a variant, by harmonic balance on the exact beam.
     mode
         Mode from which the exact backbone grows; beyond 1 it comes alone, too.
     functions
@@ -75,12 +74,11 @@ def backbone(
     omega, law = omega_of(file, omega), theory_of(file, theory)
     if whole_number("mode", mode) > 1 and (variant is not None or all_variants):
         raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")
-    if law != analytic.Theory() and not exact and mode == 1:
-        raise ValueError(f"{law} is a theory of the exact beam: add --exact")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
-    # The models are of a straight blade in its plane.
-    alone = mode > 1 or (exact and lives_in_space(file.beam))
-    names = told or ([] if alone else ["FrE"])
+    names = told or ([] if mode > 1 else ["FrM"])
+    exact = exact or not told
+    if law != analytic.Theory() and not exact:
+        raise ValueError(f"{law} is a theory of the exact beam: add --exact")
     refused: list[Refusal] = []
     models = []
     for name in names:
@@ -88,10 +86,10 @@ def backbone(
             models.append(analytic.reduced_model(file.beam, omega, name))
         except ValueError as error:
             refused.append((name, str(error)))
-    if names and not models:
+    if told and not models:
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
-    if exact or mode > 1:
+    if exact:
         orbits, failure = _exact(file.beam, omega, amplitude, mode, functions=functions, theory=law)
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
@@ -105,8 +103,8 @@ def backbone(
             "λ_ω > 0 softens"
             + ("; FrM5 has Eq. 63 with -κ (a/L)⁴" if any(model.kappa for model in models) else "")
         )
-    # All variants were asked for, one of them was not: only what was asked for by name must be had.
-    if refused and not all_variants:
+    # Only what is named must be had.
+    if refused and variant:
         raise ValueError("; ".join(_grouped(refused)))
     for sentence in _grouped(refused):
         warn(f"no answer: {sentence}")
@@ -174,9 +172,9 @@ def _print_coefficients(models: list[ReducedModel], orbits: Orbits | None, omega
     """Print one row of coefficients for each model, and one for the exact beam."""
     columns: dict[str, list[str]] = {"variant": [model.variant.name for model in models]}
     for title, name, form in (
-        ("ω_n\n[rad/s]", "omega_n", ".6f"), ("Eq. 41's\ng1", "g1", ".6g"),
-        ("Eq. 41's\ng2", "g2", ".6g"), ("Eq. 64's\nλ_ω", "lambda_omega", ".6f"),
-        ("Eq. 65's\nλ_x", "lambda_x", ".6f"), ("κ", "kappa", ".6f"),
+        ("ω_n\n[rad/s]", "omega_n", ".6f"), ("stiffness g1,\nEq. 41", "g1", ".6g"),
+        ("inertia g2,\nEq. 41", "g2", ".6g"), ("softening λ_ω,\nEq. 64", "lambda_omega", ".6f"),
+        ("harmonic 3 λ_x,\nEq. 65", "lambda_x", ".6f"), ("κ", "kappa", ".6f"),
     ):  # fmt: skip
         columns[title] = [format(getattr(model, name), form) for model in models]
         if orbits is not None:

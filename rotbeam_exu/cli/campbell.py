@@ -18,7 +18,7 @@ from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
 from .motion import chosen_speeds, configured
-from .options import SectionOptions, TheoryPairs, Whole, theory_of
+from .options import Number, SectionOptions, TheoryPairs, Whole, theory_of
 from .output import bar, formatted, print_columns
 
 if TYPE_CHECKING:
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 def campbell(
     *,
-    omega_min: float = 0.0,
-    omega_max: float | None = None,
+    omega_min: Number = 0.0,
+    omega_max: Number | None = None,
     points: Whole = 13,
     count: Whole = 3,
     orders: Whole = 6,
@@ -36,7 +36,7 @@ def campbell(
     theory: TheoryPairs = None,
     config: Path | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
-    frequency_max: float | None = None,
+    frequency_max: Number | None = None,
     force: Flag = False,
 ) -> None:
     """Print frequencies over the speed, and where they cross k ω.

@@ -19,7 +19,7 @@ from analytic.warning import warn
 
 from ..files.beam_file import RunFile, load_run_file
 from ..runs import Frame
-from .options import Dampings, Loads, Whole
+from .options import Dampings, Loads, Number, Whole
 
 if TYPE_CHECKING:
     from ..fem.case import RunCase
@@ -226,8 +226,8 @@ class Discretization:
 
     element: str | None = None
     elements: Whole | None = None
-    step: float | None = None
-    duration: float | None = None
+    step: Number | None = None
+    duration: Number | None = None
     frame: Frame | None = None
 
     def over(self, numerics: Mapping[str, Any]) -> Self:
@@ -268,7 +268,7 @@ class Driving:
 
     loads: Loads = field(default_factory=Loads)
     dampings: Dampings = Dampings()
-    load_frequency: float | None = None
+    load_frequency: Number | None = None
 
     def chosen(self, in_file: Sequence[Load]) -> Sequence[Load]:
         """Return the loads given as options, or else those of the file."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -31,10 +33,39 @@ def whole(_: Any, tokens: Sequence[Token]) -> int:
         raise ValueError(f"it must be a whole number, got {text!r}") from None
 
 
+SPEED_UNITS = {"rpm": math.pi / 30.0, "hz": 2.0 * math.pi, "rps": 2.0 * math.pi}
+"""Units of speeds that no option takes, in rad/s."""
+
+_WITH_UNIT = re.compile(rf"([-+.\de]*)({'|'.join(SPEED_UNITS)})", re.IGNORECASE)
+
+
+def number(_: Any, tokens: Sequence[Token]) -> float:
+    """Read a number: None is none, for which cyclopts would take the default."""
+    text = tokens[0].value
+    try:
+        return float(text)
+    except ValueError:
+        unit = _WITH_UNIT.fullmatch(text)
+        hint = f"; {in_rad_per_second(unit[2])}" if unit else ""
+        raise ValueError(f"it must be a number, got {text!r}{hint}") from None
+
+
+def numbers(kind: Any, tokens: Sequence[Token]) -> list[float]:
+    """Read numbers."""
+    return [number(kind, [token]) for token in tokens]
+
+
+def in_rad_per_second(unit: str) -> str:
+    """Return a sentence on the unit of speeds."""
+    return f"speeds are in rad/s, as --omega, and 1 {unit} is {SPEED_UNITS[unit.lower()]:.6g} rad/s"
+
+
+Number = Annotated[float, Parameter(converter=number)]
+Numbers = Annotated[list[float] | None, Parameter(converter=numbers, consume_multiple=True)]
 Whole = Annotated[int, Parameter(converter=whole)]
 Jobs = Annotated[int | None, Parameter(converter=whole)]
 Amplitudes = Annotated[
-    list[float],
+    list[Number],
     Parameter(consume_multiple=True, show_default=lambda given: " ".join(f"{a:g}" for a in given)),
 ]
 Config = Annotated[
@@ -45,7 +76,7 @@ Config = Annotated[
     ),
 ]
 Omega = Annotated[
-    float | None,
+    Number | None,
     Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
 ]
 TheoryPairs = Annotated[
@@ -57,14 +88,14 @@ TheoryPairs = Annotated[
     ),
 ]  # fmt: skip
 SteadySpeed = Annotated[
-    float | None,
+    Number | None,
     Parameter(
         help="Steady angular velocity [rad/s]; by default the benchmark's, 6 for its beam and "
         "ω/ω_0 = 2.06 for any other."
     ),
 ]
 RampTime = Annotated[
-    float | None,
+    Number | None,
     Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
 ]
 NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
@@ -104,16 +135,17 @@ class Workers:
     jobs
         Number of processes; by default one per core.
     cache
-        Folder with one file per finished spin-up; a stopped command continues from it.
+        Folder with one file per finished spin-up, and of converge per mesh; a stopped command
+        continues from it.
     """
 
     jobs: Jobs = None
     cache: Path | None = Path("results/cache")
 
     @contextmanager
-    def counted(self, title: str) -> Iterator[dict[str, Any]]:
-        """Give the options of what counts its pieces; Ctrl-C says where finished spin-ups are."""
-        kept = f"finished spin-ups are kept in the cache {self.cache}" if self.cache else ""
+    def counted(self, title: str, kind: str = "spin-ups") -> Iterator[dict[str, Any]]:
+        """Give the options of what counts its pieces; Ctrl-C says where those of a kind are."""
+        kept = f"finished {kind} are kept in the cache {self.cache}" if self.cache else ""
         with telling_what_is_kept(lambda: kept), counter(title) as progress:
             yield {"jobs": self.jobs, "cache": self.cache, "progress": progress}
 
@@ -141,7 +173,7 @@ class SectionOptions:
     """
 
     section: _Section = None
-    ratio: float | None = None
+    ratio: Number | None = None
 
     @property
     def name(self) -> str:
@@ -210,7 +242,7 @@ def _field(name: str, kind: Any) -> tuple[str, Any, bool | None]:
     about, size = (kind.__doc__ or "").partition("\n")[0].removesuffix("."), fields(kind)[0]
     about += f"; {kind.symbol} [{kind.unit}]"
     if not _has_default(kind):
-        return name, Annotated[float | None, Parameter(help=f"{about}.")], None
+        return name, Annotated[Number | None, Parameter(help=f"{about}.")], None
     option = Parameter(
         help=f"{about}, {size.default:g} unless given.",
         negative=(), show_default=False, metavar="[FLOAT]",
@@ -241,8 +273,8 @@ class Dampings:
         none.
     """
 
-    damping_ratio: float | None = None
-    external_damping: float | None = None
+    damping_ratio: Number | None = None
+    external_damping: Number | None = None
 
     def on(self, beam: AnyBlade) -> AnyBlade:
         """Return the blade with this damping."""

@@ -14,7 +14,7 @@ from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results, refuse_to_replace
 from .motion import ChosenMotion, chosen_speeds, chosen_times, configured, grid_motion, motion_of
-from .options import Workers, numbered
+from .options import Number, Workers, numbered
 from .output import formatted, print_columns, print_note
 
 _SWEPT = (5, 14)  # figures whose data come from sweeps
@@ -92,7 +92,7 @@ def table(number: str, /) -> None:
 
 def compare(
     *,
-    amplitude: float = 0.1,
+    amplitude: Number = 0.1,
     config: Path | None = None,
     workers: Workers = Workers(),
     results: Results = Results(),

@@ -6,6 +6,7 @@ import numpy as np
 
 import analytic
 from analytic import AnyBlade, SpinUp
+from analytic.beam import require_planar
 from analytic.input_checks import positive, whole_number
 
 from ..fem.lazily import require_exudyn
@@ -13,14 +14,14 @@ from ..lazily import xr
 from ..runs.attributes import beam_attributes
 from .job import Results
 from .motion import Discretization, chosen_times, configured, motion_of, refuse_rest
-from .options import Config, SteadySpeed, Whole
+from .options import Config, Number, SteadySpeed, Whole
 from .output import counter, formatted, print_columns, print_note
 
 
 def ramp(
     *,
     omega: SteadySpeed = None,
-    longest: float | None = None,
+    longest: Number | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
     element: str | None = None,
@@ -54,6 +55,7 @@ def ramp(
 
     file = configured(config, "motion.omega", "numerics.element", "numerics.elements")
     beam = file.beam
+    require_planar(beam, "ramp is for", "rotbeam reference, which has one ramp in space")
     motion = motion_of(file, omega=omega)
     omega = motion.spin_up.omega
     case = Discretization(element=element, elements=elements).over(file.numerics).case(beam, motion)

@@ -15,7 +15,17 @@ from ..lazily import xr
 from ..runs.attributes import theory_attributes
 from .job import Results
 from .motion import configured, omega_of
-from .options import Config, Dampings, Loads, NoFigure, TheoryPairs, Whole, option_of, theory_of
+from .options import (
+    Config,
+    Dampings,
+    Loads,
+    NoFigure,
+    Number,
+    TheoryPairs,
+    Whole,
+    option_of,
+    theory_of,
+)
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -24,9 +34,9 @@ if TYPE_CHECKING:
 
 def respond(
     *,
-    first: Annotated[float, Parameter(name="--from")],
-    last: Annotated[float, Parameter(name="--to")],
-    omega: float | None = None,
+    first: Annotated[Number, Parameter(name="--from")],
+    last: Annotated[Number, Parameter(name="--to")],
+    omega: Number | None = None,
     loads: Loads = Loads(),
     dampings: Dampings = Dampings(),
     points: Whole = 41,

@@ -16,7 +16,7 @@ from ..runs.attributes import beam_attributes, theory_attributes
 from ..runs.check import energy_drift
 from .job import Flag, Results
 from .motion import Discretization, Driving, configured, motion_of
-from .options import Config, NoFigure, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
+from .options import Config, NoFigure, Number, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
 from .output import bar, print_line
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
         "steady frequency",
         f"ω_NL = {steady.frequency:.6f} rad/s over {steady.cycles} cycles, "
         f"ω_NL/ω_n = {steady.frequency / found.omega_n:.6f}; "
-        f"± {steady.frequency_error:.1g} rad/s, the estimator's, without mesh and step",
+        f"± {steady.frequency_error:.1g} rad/s (fit only; mesh and step not included)",
     )
     for title, text in found.lines():
         print_line(title, text)
@@ -144,16 +144,16 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
     if "out_of_plane" in data.attrs:
         print_line("plane", data.attrs["out_of_plane"])
     print_line("wall time", f"{data.attrs['wall_time']:.2f} s")
-    print_line("verdict", f"checks {data.attrs['verdict']}")
+    print_line("verdict", found.sentence)
 
 
 def reference(
     *,
     omega: SteadySpeed = None,
     ramp_time: RampTime = None,
-    duration: float | None = None,
+    duration: Number | None = None,
     samples: Whole = 1501,
-    tolerance: float = 1e-8,
+    tolerance: Number = 1e-8,
     theory: TheoryPairs = None,
     config: Config = None,
     results: Results = Results(),

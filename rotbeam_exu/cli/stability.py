@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import analytic
+from analytic.beam import require_planar
 from analytic.input_checks import not_negative, whole_number
 
 from ..files.result_tables import parts
@@ -15,7 +16,16 @@ from ..lazily import xr
 from ..runs.attributes import beam_attributes, theory_attributes
 from .job import Results
 from .motion import configured, omega_of
-from .options import Amplitudes, Config, Omega, SectionOptions, TheoryPairs, Whole, theory_of
+from .options import (
+    Amplitudes,
+    Config,
+    Number,
+    Omega,
+    SectionOptions,
+    TheoryPairs,
+    Whole,
+    theory_of,
+)
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -31,7 +41,7 @@ def stability(
     shape: SectionOptions = SectionOptions(),
     amplitude: Amplitudes = _AMPLITUDES,
     mode: Whole = 1,
-    damping_ratio: float = 0.0,
+    damping_ratio: Number = 0.0,
     theory: TheoryPairs = None,
     config: Config = None,
     results: Results = Results(),
@@ -63,6 +73,9 @@ def stability(
     file = configured(config, "motion.omega", "theory")
     omega = omega_of(file, omega)
     blade = shape.of(file.beam)
+    require_planar(
+        blade, "planar motion is of", "rotbeam backbone --exact, whose orbits are in space"
+    )
     if blade.section.out_of_plane is None:
         raise ValueError(
             "the section out of the plane is unknown: give --section rectangle or --section tube, "

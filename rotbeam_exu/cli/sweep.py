@@ -23,16 +23,14 @@ from .motion import (
     grid_motion,
     refuse_rest,
 )
-from .options import Config, RampTime, SteadySpeed, Whole, Workers
+from .options import Config, Number, Numbers, RampTime, SteadySpeed, Whole, Workers
 from .output import formatted, print_columns, print_line, print_note, print_text
-
-Values = Annotated[list[float] | None, Parameter(consume_multiple=True)]
 
 
 def sweep(
     *,
-    omega: Values = None,
-    ramp_time: Values = None,
+    omega: Numbers = None,
+    ramp_time: Numbers = None,
     discretization: Discretization = Discretization(),
     driving: Driving = Driving(),
     workers: Workers = Workers(),
@@ -129,7 +127,7 @@ def converge(
     *,
     omega: SteadySpeed = None,
     ramp_time: RampTime = None,
-    tolerance: float = 1e-4,
+    tolerance: Number = 1e-4,
     count: Whole = 3,
     discretization: Discretization = Discretization(),
     driving: Driving = Driving(),
@@ -141,7 +139,8 @@ def converge(
     """Print the errors of a mesh and a step, and which to take.
 
     Natural frequencies and one spin-up, as `run` has it, on coarser and finer meshes and smaller
-    steps; one fit to all of them gives errors and orders. Writes netCDF and CSV.
+    steps; one fit to all of them gives errors and orders. Writes netCDF and CSV. Frequencies of a
+    mesh and spin-ups that are done stay in the cache: a call that was stopped goes on from there.
 
     Parameters
     ----------
@@ -168,7 +167,8 @@ def converge(
 
     def computed() -> xr.Dataset:
         exact = not no_exact
-        with workers.counted("spin-ups") as how:
+        pieces = "frequencies and spin-ups"
+        with workers.counted(pieces, pieces) as how:
             return comparison.refinement(case, count=count, tolerance=tolerance, exact=exact, **how)
 
     name = f"converge-{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import os
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,9 +22,9 @@ from ..fem.case import RunCase
 from ..fem.linearization import natural_frequencies
 from ..labels import dataset
 from ..lazily import xr
-from ..runs.attributes import versions
+from ..runs.attributes import beam_attributes, versions
 from ..runs.check import SimulationError
-from ..sweeps.cases import cache_of
+from ..sweeps.cases import Cache, cache_of
 from ..sweeps.grid import solved
 from ..verification.convergence import converged
 from ..verification.judgement import FLOOR
@@ -59,7 +59,7 @@ def refinement(
     exact : bool
         Whether to compute the exact answers, too.
     jobs, cache, progress
-        As of `rotbeam_exu.sweep`.
+        As of `rotbeam_exu.sweep`; the frequencies of a mesh are a case too, and are kept.
 
     Returns
     -------
@@ -83,13 +83,19 @@ def refinement(
     meshes = [n // 2, n, 2 * n, 4 * n]
     # As `converged` has them: the finest mesh last, on each the smallest step.
     resolutions = [(n // 2, h), (n // 2, h / 2.0), (n // 2, h / 4.0), (n, h), (2 * n, h)]
-    of_mesh = partial(natural_frequencies, case.beam, case.omega, element=case.element, count=count)
-    found = np.array([of_mesh(elements=elements) for elements in meshes])
+    store = None if cache is None else cache_of(cache, case.model)
+    pieces, counted = len(meshes) + len(resolutions), itertools.count(1)
+
+    def one_more() -> None:
+        if progress is not None:
+            progress(next(counted), pieces)
+
+    found = np.array([_frequencies(case, size, count, store, one_more) for size in meshes])
     modes = [
         converged(meshes, None, one / one[-1], noise=FLOOR, declared=(case.model.order, None))
         for one in found.T
     ]
-    time, q = _spun_up(case, resolutions, jobs, cache, progress)
+    time, q = _spun_up(case, resolutions, jobs, store, one_more)
     scale = np.abs(q[-1]).max()
     elements, steps = zip(*resolutions, strict=True)
     declared = case.model.order, _IN_STEP
@@ -143,24 +149,45 @@ def refinement(
     )  # fmt: skip
 
 
+def _frequencies(
+    case: RunCase, elements: int, count: int, store: Cache | None, one_more: Callable[[], None]
+) -> FloatArray:
+    """Return the first natural frequencies of a mesh [rad/s], of the cache or computed."""
+    described = case.describe()
+    inputs = {
+        **beam_attributes(case.beam),
+        **{name: described[name] for name in ("omega", "element", "element_options")},
+        "elements": elements,
+        "frequencies": count,
+    }
+    known = store.get(inputs) if store else None
+    if known is None:
+        found = natural_frequencies(
+            case.beam, case.omega, element=case.element, elements=elements, count=count
+        )
+        known = dataset({"frequency": ("mode", found, "natural frequency [rad/s]")}, {})
+        if store:
+            store.put(inputs, known)
+    one_more()
+    return known["frequency"].to_numpy()
+
+
 def _spun_up(
     case: RunCase,
     resolutions: list[tuple[int, float]],
     jobs: int | None,
-    cache: str | os.PathLike[str] | None,
-    progress: Callable[[int, int], None] | None,
+    store: Cache | None,
+    one_more: Callable[[], None],
 ) -> tuple[FloatArray, FloatArray]:
     """Return the times of the first run [s], and q(t) of all at these [m], (runs, times)."""
     cases: Any = {(n, h): replace(case, elements=n, step=h) for n, h in resolutions}
     found: dict[Any, xr.DataArray] = {}
-    store = None if cache is None else cache_of(cache, case.model)
-    for done, (at, result) in enumerate(solved(cases, store, None, jobs), start=1):
+    for at, result in solved(cases, store, None, jobs):
         if result.attrs["failure"]:
             which = f"{at[0]} elements with a step of {at[1]:g} s"
             raise SimulationError(f"{which}: {result.attrs['failure']}")
         found[at] = result["q"]
-        if progress is not None:
-            progress(done, len(cases))
+        one_more()
     time = found[resolutions[0]]["time"].to_numpy()
     # Samples of other runs lie elsewhere, at least 200 in a period: a spline keeps nine digits.
     return time, np.array([CubicSpline(found[at]["time"], found[at])(time) for at in resolutions])

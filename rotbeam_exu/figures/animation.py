@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import monotonic
 from typing import Any, cast
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
+from rich.console import Console
+from rich.progress import Progress
 from scipy.interpolate import CubicSpline
 
 from analytic.arrays import ComplexArray, FloatArray
 from analytic.motion import SpeedChange
 
+from ..files.results import whole_file
 from ..lazily import xr
 from ..paper import BLUE, RED
 from ..runs.attributes import beam_of, motion_of
@@ -31,6 +38,7 @@ _FAR = 100.0  # lengths: what is farther is drawn there, out of every view
 _CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}  # line of the clamp
 _CHORD = 0.1  # of the strip that shows how sections stand, over the length
 _ABOVE, _SIDE = 1, 2  # the direction that goes up in a view, y or z; x goes to the right
+_SOON = 5.0  # seconds that need no bar
 _Moving = Callable[[int], None]  # draws a part anew at time number n
 
 
@@ -144,7 +152,9 @@ def save_animation(
     rate: float | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> None:
-    """Write the animation of a blade as .gif or, with ffmpeg, as .mp4.
+    """Write the animation of a blade as .gif or, with ffmpeg, as .mp4; whole or not at all.
+
+    It is drawn in the system's folder for temporary files.
 
     Parameters
     ----------
@@ -153,7 +163,7 @@ def save_animation(
     path : Path
         The file.
     progress : callable, optional
-        Called with the number of pictures drawn.
+        Called with the number of pictures drawn; without it, a terminal has a bar after 5 s.
 
     Raises
     ------
@@ -167,16 +177,32 @@ def save_animation(
     fps: Any = rate or 1.0 / float(data["time"][1] - data["time"][0])
     writer = _Gif(fps=fps) if path.suffix == ".gif" else FFMpegWriter(fps=fps)
     try:
-        drawn = (lambda n, _: progress(n + 1)) if progress else None
-        animation.save(path, writer=writer, dpi=100, progress_callback=drawn)
+        # Not in the folder of the film: what is killed would leave half of it there.
+        with TemporaryDirectory() as folder, _bar(data.sizes["time"]) as drawn:
+            film, done = Path(folder) / path.name, progress or drawn
+            animation.save(film, writer=writer, dpi=100, progress_callback=lambda n, _: done(n + 1))
+            with whole_file(path) as partial:
+                shutil.copyfile(film, partial)
     finally:
         plt.close(animation._fig)  # type: ignore[attr-defined]
+
+
+@contextmanager
+def _bar(count: int) -> Iterator[Callable[[int], None]]:
+    """Give a function to call with the pictures drawn: on a terminal a bar shows them after 5 s."""
+    errors, start = Console(stderr=True), monotonic()
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as drawn:
+        task = drawn.add_task("drawing", total=count, visible=False)
+        yield lambda n: drawn.update(task, completed=n, visible=monotonic() > start + _SOON)
 
 
 def check_format(path: Path) -> None:
     """Refuse an ending that cannot be written here, before any long work."""
     if path.suffix not in (".gif", ".mp4"):
-        raise ValueError(f"cannot write {path.name!r}: the ending must be .gif or .mp4")
+        raise ValueError(
+            f"cannot write {path.name!r}: the ending must be .gif or .mp4, or .pvd for ParaView, "
+            "of rotbeam animate and save_vtk"
+        )
     if path.suffix == ".mp4" and not FFMpegWriter.isAvailable():
         raise ValueError(f"cannot write {path.name!r}: MP4 needs ffmpeg; install it or take .gif")
 

@@ -132,13 +132,13 @@ def _factors(header: Iterable[str], path: Path) -> dict[str, float]:
             "EI [N m^2],m [kg/m], separated by commas"
         )
     factors: dict[str, float] = {}
-    for name, told, title in named:
+    for name, written, title in named:
         if name not in _UNITS:
             raise ValueError(f"{path}: unknown column {shown(name)}; known are {', '.join(_UNITS)}")
         if name in factors:
             raise ValueError(f"{path} has two columns {name}: keep one")
         known = _FACTORS[_UNITS[name]]
-        unit = " ".join(told.replace("²", "^2").replace("*", " ").split())
+        unit = " ".join(written.replace("²", "^2").replace("*", " ").split())
         if unit not in known:
             raise ValueError(
                 f"{path}: give the unit of column {shown(title)}, as {name} [{_UNITS[name]}]; "

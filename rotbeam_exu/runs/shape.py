@@ -113,19 +113,20 @@ def sides_of(blade: Blade, at: FloatArray, **sides: ArrayLike) -> FloatArray:
     The height of a rectangle goes with √(EI/EA), the width with that of the other plane or, where
     it is not known, with EA over the height. One number is refused where this varies.
     """
-    at, found = np.atleast_1d(at), []
+    at, columns = np.atleast_1d(at), []
     for name, given in sides.items():
         side = along(name, given, at.size, "m")
         if side.min() < 0.0:
             raise ValueError(f"{name} must not be negative, got {side.min():g} m")
-        own = _relative(blade, name, at)
-        if np.ndim(given) == 0 and side.any() and np.ptp(own) > _ALIKE * own.max():
+        relative = _relative(blade, name, at)
+        if np.ndim(given) == 0 and side.any() and np.ptp(relative) > _ALIKE:
             raise ValueError(
-                f"the {name} of this blade varies along it, by its stiffness to {own.min():.3g} of "
-                f"its largest: give {name} at each of the {at.size} stations, in an array"
+                f"the {name} of this blade varies along it, by its stiffness to "
+                f"{relative.min():.3g} of its largest: give {name} at each of the {at.size} "
+                "stations, in an array"
             )
-        found.append(side)
-    return np.stack(found, axis=-1)
+        columns.append(side)
+    return np.stack(columns, axis=-1)
 
 
 def _relative(blade: Blade, name: str, at: FloatArray) -> FloatArray:

@@ -92,6 +92,22 @@ class Assessment:
         """The nonlinear effect of the exact beam, ω_NL/ω_n - 1."""
         return self.exact_frequency / self.exact_omega_n - 1.0
 
+    @property
+    def coarse(self) -> bool:
+        """Whether the error of ω_n hides the nonlinear effect; where that is unknown, one in 100.
+
+        Of a limit that is another, no mesh mends it.
+        """
+        return abs(self.mesh_error) > WORTH * (1.0 if self.why_not else abs(self.effect))
+
+    @property
+    def sentence(self) -> str:
+        """Verdict on a run whose checks have passed."""
+        if not self.coarse:
+            return "equations solved"
+        why = "element of another limit" if self.elsewhere else "mesh too coarse"
+        return f"equations solved; {why}, {100.0 * self.mesh_error:+.2g} %"
+
     def _share(self, error: float) -> str:
         """Return how large an error is beside the nonlinear effect."""
         share = abs(error / self.effect) if self.effect else math.inf
@@ -103,8 +119,8 @@ class Assessment:
             (
                 "exact ω_n",
                 f"{self.exact_omega_n:.6f} rad/s ({self.theory}); "
-                f"error of the run's {self.mesh_error:+.1e}: "
-                f"{'another limit' if self.elsewhere else 'the mesh'}",
+                f"error {self.mesh_error:+.1e}, "
+                f"{'of another limit' if self.elsewhere else 'due to the mesh'}",
             )
         ]
         if self.why_not:
@@ -114,8 +130,8 @@ class Assessment:
             (
                 "exact ω_NL",
                 f"{self.exact_frequency:.6f} rad/s at this amplitude ({self.theory}); "
-                f"error of the run's {self.error:+.1e}, "
-                f"beyond that of ω_n {self.step_error:+.1e}: the step, and the mesh in the swing",
+                f"error {self.error:+.1e} in total; "
+                f"relative to ω_n of this mesh {self.step_error:+.1e} (step and mesh)",
             ),
             ("nonlinear effect", f"exact ω_NL/ω_n - 1 = {self.effect:+.3e}"),
         ]

@@ -43,7 +43,7 @@ _BELIEVED = 0.6
 _DECLARED_SPREAD, _ANY_SPREAD = 0.12, 0.7  # of ln p
 
 _COVERED = 0.96
-"""Probability that the limit lies within its bar; of synthetic submissions 95 % then do."""
+"""Probability that the limit lies within its bar; of synthetic submissions 95 % or more do."""
 
 _MOST_FREEDOM = 2
 """Degrees of freedom by which the scale of errors is known: runs of one code are not independent,

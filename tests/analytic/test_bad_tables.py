@@ -54,6 +54,7 @@ def test_a_table_of_stations_with_a_fault(table, name, kind, place):
         ({"x": X[:2]}, "at each of the 2 stations"),
         ({"x": [0.0, 8.0, 3.0]}, "x must ascend, but 3 m comes after 8 m"),
         ({"x": [X, X]}, "x must be a sequence of numbers"),
+        ({"x": [0.0]}, "x must be two stations or more from 0 to the length, got 1 from 0 to 0 m"),
         ({"stiffness": PLAIN.stiffness}, "tension is a center of columns, and 6x6 matrices have"),
         ({"mass": PLAIN.mass}, "center is a center of columns"),
     ],
@@ -69,6 +70,7 @@ def test_zeros_are_no_centers():
 
 
 NUMBERS = {"axial_stiffness": 5e6, "bending_stiffness": 566.0, "mass_per_length": 0.2}
+BLADE = Blade(length=8.0, section=Section(**NUMBERS))
 FORMS = {
     "number": lambda value: value,
     "coefficients": lambda value: [value, -0.1 * value],
@@ -96,6 +98,8 @@ def test_a_profile_with_a_fault(name, form, kind, place):
 @settings(max_examples=60, deadline=None)
 @given(st.sampled_from([
     ("kinks", lambda bad: Line(kinks=[bad]), (5.0, 0.0, 0.3)),
+    ("kinks", lambda bad: Line(kinks=bad), [(5.0, 0.0, 0.3), (6.0, 0.1, 0.0)]),
+    ("height", lambda bad: BLADE.with_taper(height=bad), 0.1),
     ("mass_offset", lambda bad: Line(mass_offset=bad), (0.1, 0.2)),
     ("tension_offset", lambda bad: Line(tension_offset=bad), (0.1, 0.2)),
     ("offset", lambda bad: PointMass(position=1.0, mass=1.0, offset=bad), (0.1, 0.2)),
@@ -117,9 +121,6 @@ def test_a_shape_with_a_fault(shape, kind, place):
     if kind == "nothing":  # follows from the blade
         return
     refused(lambda: type(shape)(**{**values, name: spoiled(values[name], kind)}), name)
-
-
-BLADE = Blade(length=8.0, section=Section(**NUMBERS))
 
 
 @pytest.mark.parametrize("vary", [BLADE.with_twist, BLADE.with_prebend, BLADE.with_sweep])

@@ -92,7 +92,7 @@ def test_its_matrices_in_beamdyn_s_axes_have_its_frequencies(iea, key_points):
     model = space_continuum(iea, BEAMDYN, 20)
     ours = space_modes_on(model, iea, 0.0, 7).frequencies / (2.0 * np.pi)
     # Errors of linear elements fall by fours, to 1e-6 of the sum; the fitted line makes most of the
-    # rest, 35e-6. The other sign of the twist, or no sign in the turn, makes 6e-3 and more.
+    # rest, 27e-6. The other sign of the twist, or no sign in the turn, makes 6e-3 and more.
     assert (4.0 * fine - coarse) / 3.0 == pytest.approx(ours, rel=5e-5)
 
 

@@ -66,6 +66,25 @@ def test_what_one_model_refuses_does_not_take_the_others_away(call, tmp_path):
     assert "has a hub: take FrM" in error
 
 
+def test_without_a_variant_it_is_frm_and_the_exact_beam(call, tmp_path):
+    """FrE, the paper's, is 6 to 29 % off."""
+    code, out, _ = call("backbone", "--omega", "6", "--amplitude", "0.1", "--format", "csv")
+    (row,) = csv.DictReader(io.StringIO(out))
+    assert (code, row["variant"]) == (0, "FrM")
+    (frequency,) = periodic_orbits(Beam.reference(), 6.0, [0.1]).frequency
+    assert float(row["exact beam [rad/s]"]) == pytest.approx(frequency)
+    blade = tmp_path / "blade.toml"
+    blade.write_text(
+        BLADE.replace("[blade]", "[blade]\nline = { twist = [0.0, 0.5] }").replace(
+            "[blade.section]",
+            "[blade.section]\nout_of_plane = { bending_ratio = 0.1, torsion_ratio = 0.1 }",
+        )
+    )
+    code, out, error = call("backbone", "--amplitude", "0.1", "--config", blade)
+    assert (code, error.count("warning: no answer: FrM")) == (0, 1)
+    assert "exact/ω_n" in out
+
+
 def test_an_amplitude_without_an_orbit_is_a_dash_and_a_sentence(call):
     arguments = ("--omega", "30", "--variant", "CI", "--amplitude", "0.1", "0.9", "--format", "csv")
     code, out, error = call("backbone", *arguments)

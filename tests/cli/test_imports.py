@@ -57,7 +57,7 @@ def answers_of(lines, folder, *without):
 
 
 HELPS = ["--help", *(f"{command} --help" for command in _COMMANDS)]
-PRINTING = ["backbone --omega 6", "campbell --points 3 --count 2", "table 1"]
+PRINTING = ["backbone --omega 6 --variant FrM", "campbell --points 3 --count 2", "table 1"]
 THEORY = {
     "table 3": "Table 3",
     "backbone --omega 6 --all-variants --exact --amplitude 0.1": "exact",

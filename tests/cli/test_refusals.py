@@ -1,13 +1,18 @@
 """Bad input to the commands: one sentence each, exit code 2, and nothing written."""
 
+import re
 import shlex
+from itertools import chain
 
 import pytest
 
+from rotbeam_exu.cli import _COMMANDS, app
 from tests.beams import BLADE_TOML
+from tests.exudyn.test_beam_file import STATIONS
 
 FILES = {
-    "blade": BLADE_TOML, "slip": "[motion]\nomga = 6", "load": "[[loads]]\nkind = 'Gravity'\n",
+    "stations": STATIONS, "blade": BLADE_TOML, "slip": "[motion]\nomga = 6",
+    "load": "[[loads]]\nkind = 'Gravity'\n",
     "motion": "[motion]\nomega = 4", "element": "[numerics]\nelement = 'cabel'",
     "frame": "[numerics]\nframe = 'rotated'",
 }  # fmt: skip
@@ -34,6 +39,10 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("run --omega nan", "omega must be finite"),
         ("run --ramp-time -2", "ramp_time must be positive, got -2.0 s"),
         ("run --omega 0", "nothing oscillates: take a speed above zero, as 6 rad/s"),
+        ("run --omega 6rpm", "in rad/s, as --omega, and 1 rpm is 0.10472 rad/s"),
+        ("run --omega 60 rpm", "in rad/s, as --omega, and 1 rpm is 0.10472 rad/s"),
+        ("sweep --omega 4 6Hz", "it must be a number, got '6Hz'; speeds are in rad/s"),
+        ("campbell --omega-max 6 now", "no option takes 'now'"),
         ("run --rpm 60", "as --omega, and 1 rpm is 0.10472 rad/s"),
         ("sweep --hz=1.5", "1 hz is 6.28319 rad/s"),
         # Options: what is missing or unknown, and endings.
@@ -47,8 +56,9 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("compare --config ../blade.toml", "take rotbeam backbone --variant FrM --exact"),
         ("explore --config ../motion.toml", "has [motion], of which this command uses nothing"),
         ("run --tip-force 1", "with --load-frequency"),
-        ("respond --to 2", f"--from {HELP.format('respond')}"),
-        ("figure", f"NUMBER {HELP.format('figure')}"),
+        ("respond --to 2", "--from is missing. rotbeam respond --help explains it"),
+        ("figure", "NUMBER is missing. rotbeam figure --help explains it"),
+        ("respond", "--from is missing. rotbeam respond --help explains it"),
         ("figure -- 7", "it must be 3, 4, 5, 8"),
         ("figure -- x", "it must be 3, 4, 5, 8"),
         ("figure 8 --style House", "house"),
@@ -60,7 +70,10 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("backbone --omega 6 --format text", 'Choose from: "table", "csv"'),
         ("animate --beside cable", "linear"),
         ("animate --height 0.04 --out film.pvd", "give width too, or leave both out"),
-        ("animate --out beam.avi", "the ending must be .gif or .mp4"),
+        ("animate --out beam.avi", "the ending must be .gif or .mp4, or .pvd for ParaView"),
+        ("run --config ../stations.toml", "or on the command line rotbeam reference"),
+        ("ramp --config ../stations.toml", "ramp is for a straight blade in its plane, and this"),
+        (f"{STABILITY}--config ../stations.toml", "planar motion is of a straight blade in its"),
         ("explore --out explorer.pdf", "the ending must be .html"),
         ("judge mine --report a.pdf", "the ending must be .html"),
         ("judge mine --json a.txt", "the ending must be .json"),
@@ -112,3 +125,32 @@ def test_it_is_one_sentence_and_nothing_is_written(call, tmp_path, monkeypatch, 
     assert error.startswith("rotbeam: ")
     assert len(error.strip().splitlines()) == 1
     assert not [path for path in tmp_path.glob("here/**/*") if path.is_file()]
+
+
+def _numbers(command):
+    """Names of a command's options whose value is a number."""
+    arguments = app[command].assemble_argument_collection()
+    return [
+        (command, one.name)
+        for one in arguments
+        if one.parse and one.name.startswith("--") and re.search(r"int|float", str(one.hint))
+    ]
+
+
+OPTIONS = list(chain.from_iterable(map(_numbers, _COMMANDS)))
+
+
+@pytest.mark.parametrize("text", ["None", "null"])
+@pytest.mark.parametrize(("command", "option"), OPTIONS)
+def test_none_is_no_number_and_not_the_default(call, tmp_path, monkeypatch, command, option, text):
+    monkeypatch.chdir(tmp_path)
+    needed = {"respond": {"--from": "3", "--to": "4"}}.get(command, {})
+    first = ["9"] if command == "figure" else []
+    code, out, error = call(command, *first, *chain(*({**needed, option: text}).items()))
+    assert (code, out, error.count("\n")) == (2, "", 1)
+    assert f"Invalid value for {option}: " in error
+    assert text in error
+
+
+def test_there_are_numbers_to_try():
+    assert {("run", "--omega"), ("sweep", "--ramp-time"), ("respond", "--gravity")} <= {*OPTIONS}

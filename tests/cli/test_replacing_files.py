@@ -45,6 +45,17 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
     assert load(next(tmp_path.glob("*.nc"))).attrs["frame"] == "rotating"
 
 
+def test_tables_of_other_inputs_are_not_replaced_either(call, tmp_path):
+    """Of which the netCDF file is gone: their JSON file knows the inputs."""
+    run = ("run", "--elements", "2", "--duration", "8", *QUICK, "--out", tmp_path)
+    assert call(*run, "--step", "0.01")[0] == 0
+    (tmp_path / "cable-2-omega-6-ramp-3.nc").unlink()
+    code, _, error = call(*run, "--step", "0.005")
+    assert code == 2
+    assert "ramp-3.json holds another result: step 0.01 instead of 0.005" in error
+    assert call(*run, "--step", "0.01")[0] == 0
+
+
 def test_a_short_window_keeps_the_run_and_says_where_and_how_long_is_enough(call, tmp_path):
     short = ("run", *SHORT[:4], "--duration", "5", "--no-figure", "--out", tmp_path)
     code, _, error = call(*short)

@@ -79,7 +79,7 @@ def test_damping_makes_the_growth_slower(call, tmp_path, beam, monkeypatch):
     command = ("stability", "--omega", "2", "--section", "rectangle", "--amplitude", "0.045")
     code, out, _ = call(*command, "--damping-ratio", "0.005", "--out", tmp_path)
     assert code == 0
-    sentence = "damped out of the plane by 0.005 of the critical, leave their plane from a = 0.0402"
+    sentence = "by 0.005 of the critical, are unstable out of the plane for a between 0.0402"
     assert sentence in " ".join(out.split())
     data = load(tmp_path / "stability-rectangle-omega-2-mode-1.nc")
     free = planar_stability(beam.with_shape(Rectangle()), 2.0, [0.045]).growth_rate[0]

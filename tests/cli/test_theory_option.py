@@ -73,6 +73,8 @@ def test_a_wrong_theory_is_one_sentence(call, tmp_path, text, sentence):
 
 
 def test_a_theory_without_the_exact_beam_is_refused(call):
-    code, _, error = call("backbone", "--omega", "6", "--theory", "extension=false")
+    code, _, error = call(
+        "backbone", "--omega", "6", "--variant", "FrM", "--theory", "extension=false"
+    )
     assert code == 2
     assert "Theory(extension=False) is a theory of the exact beam: add --exact" in error

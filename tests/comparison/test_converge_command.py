@@ -1,11 +1,16 @@
 """`rotbeam converge`: orders, errors and what to take, beside the exact beam."""
 
+import importlib
+import signal
+
 import numpy as np
 import pytest
 
 from analytic import Beam, SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import load, natural_frequencies, simulate
+from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.sweeps import grid
 
 TAPERED = """
 [blade]
@@ -69,3 +74,39 @@ def test_a_tapered_blade_on_the_default_mesh_is_told(call, tmp_path):
     assert abs(off[1]) > 1e-4
     assert np.isnan(data["exact_error"]).all()
     assert int(data["recommended_elements"]) > 32
+
+
+@pytest.mark.filterwarnings("ignore::analytic.input_checks.RotbeamWarning")
+def test_a_call_that_was_stopped_goes_on_from_the_cache(call, tmp_path, monkeypatch):
+    """Frequencies of a fine mesh are minutes of work too, and were not kept."""
+    computed, ends = [], []
+
+    def watched(name, function):
+        def one(*case, **options):
+            if len(computed) in ends:
+                signal.raise_signal(signal.SIGINT)
+            result = function(*case, **options)
+            computed.append(name)
+            return result
+
+        return one
+
+    room = importlib.import_module("rotbeam_exu.comparison.refinement")
+    monkeypatch.setattr(room, "natural_frequencies", watched("mesh", room.natural_frequencies))
+    monkeypatch.setattr(grid, "solve", watched("spin-up", grid.solve))
+    settings = ("--elements", "4", "--step", "8e-3", "--duration", "6.4", "--no-exact")
+    asked = ("converge", *settings, "--jobs", "1", "-o", tmp_path, "--cache", tmp_path / "c")
+    kept = f"finished frequencies and spin-ups are kept in the cache {tmp_path / 'c'}"
+    for pieces in (2, 7):
+        ends[:] = [pieces]
+        code, _, error = call(*asked)
+        assert (code, len(computed)) == (130, pieces)
+        assert error.splitlines()[-1] == f"rotbeam: interrupted; {kept}"
+        assert f"frequencies and spin-ups: {pieces} of 9 done" in error
+    ends.clear()
+    assert call(*asked)[0] == 0
+    assert computed == ["mesh"] * 4 + ["spin-up"] * 5
+    (path,) = tmp_path.glob("converge-*.nc")
+    fresh = room.refinement(RunCase.described(load(path).attrs), exact=False, jobs=1)
+    for name, values in fresh.data_vars.items():
+        np.testing.assert_array_equal(load(path)[name], values)

@@ -65,6 +65,8 @@ def test_each_citation_has_one_entry_and_each_entry_its_source():
     assert in_paper <= keys
     for key, fields in entries:
         assert re.search(r"^ +(doi|seen) = \{\S", fields, re.MULTILINE), key
+        # A field that was not seen is left out, and not excused.
+        assert not re.search(r"^ +seen = .*\bnot\b", fields, re.MULTILINE), key
         # What is shown to a reader is known.
         shown = re.sub(r"^ +seen = .*$", "", fields, flags=re.MULTILINE)
         assert not re.search(r"from memory|not (seen|known)", shown), key

@@ -1,16 +1,28 @@
 """The moving picture of a spin-up."""
 
+import io
+import os
+import signal
+import subprocess
+import sys
+from functools import partial
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.animation import FFMpegWriter
 from matplotlib.text import Text
 from PIL import Image
+from rich.console import Console
 
 from analytic import SpinUp, linear_response, spin_up_response
-from rotbeam_exu import dataset_of
+from rotbeam_exu import dataset_of, save
 from rotbeam_exu.figures import animate, save_animation
+from rotbeam_exu.figures import animation as animation_room
 from rotbeam_exu.runs.shape import in_space
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
@@ -165,6 +177,52 @@ def test_a_gif_has_every_picture_in_real_time(beam, tmp_path):
         picture.seek(5)
         assert (np.asarray(picture.convert("RGB")) != first).any()
     assert counted == list(range(1, response.time.size + 1))
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from PIL import Image
+from rotbeam_exu import load
+from rotbeam_exu.figures import save_animation
+
+def killed(picture, file, *_, **__):
+    Path(file).write_bytes(b"")  # as Pillow begins
+    os.kill(os.getpid(), int(sys.argv[2]))
+
+Image.Image.save = killed
+save_animation(load(sys.argv[1]), Path("film.gif"), rate=5.0)
+"""
+
+
+@pytest.mark.parametrize(
+    "number", [signal.SIGKILL, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)]
+)
+def test_a_film_that_is_killed_leaves_nothing_where_it_was_to_be(response, tmp_path, number):
+    """It left a film of no bytes."""
+    run = save(dataset_of(response).isel(time=[0, 1]), tmp_path / "run.nc")
+    (tmp_path / "here").mkdir()
+    (tmp_path / "temporary").mkdir()
+    ended = subprocess.run(
+        [sys.executable, "-c", KILLED, run, str(int(number))], cwd=tmp_path / "here", check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(tmp_path / "temporary")},
+    )  # fmt: skip
+    assert ended.returncode == -number
+    assert not list((tmp_path / "here").iterdir())
+    assert list((tmp_path / "temporary").rglob("film.gif"))
+
+
+@pytest.mark.parametrize("soon", [0.0, 1e3])
+def test_a_film_that_takes_longer_than_a_few_seconds_has_a_bar(
+    response, tmp_path, monkeypatch, soon
+):
+    errors = io.StringIO()
+    terminal = partial(Console, file=errors, force_terminal=True, width=80)
+    monkeypatch.setattr(animation_room, "Console", terminal)
+    monkeypatch.setattr(animation_room, "_SOON", soon)
+    save_animation(dataset_of(response).isel(time=[0, 1]), tmp_path / "film.gif", rate=5.0)
+    assert ("drawing" in errors.getvalue()) == (soon == 0.0)
+    assert [path.name for path in tmp_path.iterdir()] == ["film.gif"]
 
 
 @pytest.mark.skipif(not FFMpegWriter.isAvailable(), reason="no ffmpeg")

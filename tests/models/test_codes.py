@@ -71,16 +71,55 @@ def test_rigid_links_tend_to_the_inextensible_beam():
     assert limit == pytest.approx(1.6e-4, abs=1e-5)
 
 
-def test_times_at_equal_error_are_read_between_the_best_runs():
-    class Stub(overview.Code):
-        runs = ((1.0, 1e-1), (2.0, 2e-1), (4.0, 1e-3))
+def without(code, left_out):
+    """Return a code that did not hand in some of its runs of S1."""
+    runs = [run for run in code.handed.runs if run.case == "S1" and not left_out(run)]
+    handed = replace(code.handed, runs=tuple(runs), rows=())
+    return overview.Code(handed, judged(handed, only=("S1",)), code.unit)
 
-    code = Stub(None, None, 1.0)
-    assert code.front == [(1.0, 1e-1), (4.0, 1e-3)]
-    # Half of the way in logarithms.
-    assert code.cost(1e-2) == "2"
-    assert code.cost(0.5) == "< 1"
-    assert code.cost(1e-4) == "> 4"
+
+def code_of(name):
+    handed = read_submission(CODES / name / "submission", only=("S1",))
+    return overview.Code(handed, judged(handed, only=("S1",)), record(name)["calibration_s"])
+
+
+def test_a_run_whose_errors_cancel_makes_no_cost_lower():
+    """Exudyn's 8 elements at 4 ms are better than 1e-3, with a third of the CPU time needed."""
+    code = code_of("exudyn_cable")
+    lucky = [run for run in code.handed.runs if (run.elements, run.step) == (8, 4e-3)]
+    cpu, error = next(one for one in code.runs if one[0] == lucky[0].cpu / code.unit)
+    assert error < 1e-3
+    assert code.cost(1e-3) > 2.5 * cpu
+    honest = without(code, lambda run: run in lucky)
+    assert code.cost(1e-3) > 0.98 * honest.cost(1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", NAMES)
+def test_no_single_run_makes_the_cost(name):
+    """Without any one run but the finest the cost is the same, to the factor that the page has."""
+    code = code_of(name)
+    for run in code.found.histories["S1"].runs[:-1]:
+        fewer = without(code, lambda one, run=run: one.file == run.file)
+        assert 0.5 < fewer.cost(1e-3) / code.cost(1e-3) < 2.0
+
+
+def test_a_cost_is_that_of_the_least_work_with_the_error():
+    """Errors of the fit add up to it, and more or fewer elements, or steps, are more work."""
+    code = code_of("exudyn_space")
+    fit = code.fit
+    n, h = code.needed(1e-3)
+    mesh = fit.in_mesh[-1] * (fit.elements[-1] / n) ** fit.powers[0]
+    step = fit.in_step[-1] * (h / fit.steps[-1]) ** fit.powers[1]
+    assert abs(mesh) + abs(step) == pytest.approx(1e-3, rel=1e-6)
+    # Of equal orders, half and half; the order is 2.00 of mesh and step.
+    assert abs(mesh) == pytest.approx(abs(step), rel=0.05)
+    # What is beyond the coarsest mesh and the largest step is not believed.
+    assert code.needed(10.0) == (fit.elements.min(), fit.steps.max())
+    header, (row,) = overview.costs([code])
+    assert len(header) == len(row)
+    assert row[header.index("CPU at 0.001")].endswith(" †")
+    assert not set("<>") & set("".join(row))
 
 
 def test_a_code_without_times_has_outcomes_only():

@@ -4,7 +4,9 @@ Errors of the finest run are log-uniform from a ten-thousandth of the tolerance 
 in mesh and in step; the tolerance is one. Bounds follow from the binomial distribution.
 """
 
+import re
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +15,8 @@ from scipy import special
 from rotbeam_exu.verification.convergence import converged
 from rotbeam_exu.verification.outcomes import Outcome, found_of
 
+KINDS = "asymptotic", "pre-asymptotic", "oscillating", "noisy"
+PAGES = Path(__file__).parents[2] / "docs" / "howto"
 DEFAULT, MANY = 20, 2000
 WHOLE = (8, 16, 32, 16, 16), (2e-3, 2e-3, 2e-3, 1e-3, 4e-3)
 FAR = 3.4
@@ -134,3 +138,48 @@ def test_a_ladder_of_steps_on_a_coarse_mesh_tells_nothing_of_the_mesh(order, kin
         differs += outcome is Outcome.DIFFERS
     assert missed <= at_most(count, 0.05)
     assert differs <= at_most(count, 1e-3)
+
+
+def shares(kind, runs, count=400):
+    """Return in % how often the limit is within its bar, and the bar above three finest errors."""
+    rng, (n, h) = np.random.default_rng(8), runs
+    finest = np.lexsort((-np.array(n if h is None else h), n))[-1]
+    within, wide = 0, 0
+    for _ in range(count):
+        values = drawn(rng, kind, runs, 2.0)
+        fit, _ = fitted(values, runs, 2.0)
+        within += abs(fit.limit) <= fit.bar
+        wide += fit.bar > 3.0 * abs(values[finest])
+    return 100.0 * within / count, 100.0 * wide / count
+
+
+@pytest.mark.slow
+def test_the_page_has_the_coverage_that_is_measured():
+    text = (PAGES / "judge_report.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ([\d, ]+?)(; [^|]*)? \| (\d.* %) \|$", text, re.MULTILINE)
+    assert len(rows) == 5
+    for meshes, steps, cells in rows:
+        runs = WHOLE if steps else (tuple(map(int, meshes.split(","))), None)
+        stated = [tuple(map(float, re.findall(r"\d+", cell))) for cell in cells.split("|")]
+        for kind, numbers in zip(KINDS, stated, strict=True):
+            # In whole percents; another BLAS may decide a draw or two otherwise.
+            assert shares(kind, runs) == pytest.approx(numbers, abs=1.1), (meshes, kind)
+
+
+def test_a_finer_mesh_more_makes_bars_smaller_by_less_where_errors_oscillate():
+    """Medians, as docs/howto/judge.md has them."""
+    n, median = (8, 16, 32, 64), {}
+    for kind in KINDS:
+        rng, ratios = np.random.default_rng(8), []
+        for _ in range(40):
+            values = drawn(rng, kind, (n, None), 2.0)
+            three, four = (fitted(values[:k], (n[:k], None), 2.0)[0].bar for k in (3, 4))
+            ratios.append(three / four)
+        median[kind] = np.median(ratios)
+    assert median["asymptotic"] > 5.0
+    assert median["pre-asymptotic"] > 4.0
+    assert 1.5 < median["oscillating"] < 3.5
+    text = (PAGES / "judge.md").read_text(encoding="utf-8")
+    assert (
+        "some five times smaller where errors fall smoothly, about half where they oscill" in text
+    )

@@ -208,6 +208,6 @@ def warn_of_resonances(of: ModePath, orbits: Iterable[BeamOrbit]) -> None:
             warn(
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
                 f"of mode {of.mode} ({k * orbit.frequency * of.beam.frequency_scale:.4f} rad/s) is "
-                f"{100.0 * distance / k:.1f} % from mode {j}, as the Floquet exponents about it "
-                f"tell; {of.at_resonance}"
+                f"{100.0 * distance / k:.1f} % from mode {j} (from Floquet exponents): "
+                f"{of.at_resonance}"
             )

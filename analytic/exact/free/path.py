@@ -37,7 +37,7 @@ class AmplitudeNotReachedError(RuntimeError):
 class ModePath:
     """Free orbits out of one mode, computed as far as they are needed; base of `Backbone`."""
 
-    at_resonance: ClassVar[str] = "backbone(...).branch follows what branches there"
+    at_resonance: ClassVar[str] = "use backbone(...).branch to follow the branches"
 
     beam: AnyBlade
     omega: float

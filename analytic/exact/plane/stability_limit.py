@@ -86,7 +86,7 @@ class StabilityLimit:
         at = f"At {self.omega:g} rad/s the planar orbits of this section"
         if self.damping:
             at = f"{at}, damped out of the plane by {self.damping:g} of the critical,"
-        grow = f", by {self.growth:g} per radian and more" if self.growth > GROWTH else ""
+        grow = f"; growth at least {self.growth:g} per radian" if self.growth > GROWTH else ""
         limited = math.isfinite(self.amplitude)
         tongues = ""
         if self.tongues:
@@ -102,8 +102,8 @@ class StabilityLimit:
             )
         doubt = "" if self.converged else ", not converged"
         return (
-            f"{at} leave their plane from a = {self.amplitude:.4g} on, up to the "
-            f"{self.searched:.4g} looked at{grow}{doubt}: "
+            f"{at} are unstable out of the plane for a between {self.amplitude:.4g} and "
+            f"{self.searched:.4g} (the largest searched){grow}{doubt}: "
             f"{self.kind} of {' and '.join(self.modes)}" + (f"; {tongues}" if tongues else "")
         )
 

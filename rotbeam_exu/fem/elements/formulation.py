@@ -194,7 +194,8 @@ class Formulation(Described, abstract=True):
         whole = blade.blade
         line, table = whole.line, whole.section.at_stations
         beyond = (*line.kinks, *line.mass_offset, *line.tension_offset, *whole.point_masses)
-        remedy = "analytic.spin_up_response" if table or any(beyond) else "element='space_exact'"
+        exact = "analytic.spin_up_response, or on the command line rotbeam reference"
+        remedy = exact if table or any(beyond) else "element='space_exact'"
         require_planar(blade, f"element {self.name!r} is for", remedy)
 
     def setting(self, blade: AnyBlade) -> float:

@@ -74,7 +74,7 @@ class SpaceExact(Sheared, FrameNodes):
             raise ValueError(
                 "element 'space_exact' takes sections by their ratios on a smooth line, and this "
                 f"blade has {'kinks' if line.kinks else 'a table of stations'}: take "
-                "analytic.spin_up_response"
+                "analytic.spin_up_response, or on the command line rotbeam reference"
             )
         out = section.out_of_plane
         torsion = None if out is None else out.torsion_ratio

@@ -1,0 +1,117 @@
+"""`rotbeam blade`: mass, stiffness and first frequencies of the blade in a file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import get_args
+
+import numpy as np
+
+import analytic
+from analytic import Blade, Theory
+from analytic.arrays import FloatArray, evaluated, in_units
+from analytic.station_section import STIFFNESSES, Interpolation, StationSection
+
+from .job import Flag
+from .motion import configured
+from .output import bar, formatted, print_columns, print_line, print_note
+
+_COUNT = 6  # modes
+
+
+def blade(*, shear: Flag = False, config: Path | None = None) -> None:
+    """Print mass, stiffness and first frequencies of a blade.
+
+    The frequencies are at rest and at the speed of the file.
+
+    Of a table of stations it also prints by how much the frequencies at rest change with the other
+    interpolation between stations, which is a convention.
+
+    Parameters
+    ----------
+    shear
+        Let the sections shear, by GA2 and GA3 of a table of stations.
+    config
+        TOML file with the beam or blade, and optionally a speed; without it, the paper's beam.
+
+    Examples
+    --------
+    $ rotbeam blade
+    $ rotbeam blade --config beam.toml
+    """
+    file = configured(config, "motion.omega")
+    beam, omega = file.beam.blade, file.motion.get("omega", 0.0)
+    theory = Theory(shear=True if shear else None)
+    with bar("modes"):
+        rest = analytic.linear_modes(beam, 0.0, _COUNT, theory=theory)
+        turning = {}
+        if omega:
+            modes = analytic.linear_modes(beam, omega, _COUNT, theory=theory)
+            turning[f"at {omega:g} rad/s [Hz]"] = modes.frequencies / (2.0 * np.pi)
+        section, others = beam.section, {}
+        if isinstance(section, StationSection):
+            (way,) = set(get_args(Interpolation)) - {section.interpolation}
+            others[way] = _changes(beam, section, way, theory, rest.frequencies)
+    place, mass = beam.unit.inertia(32)
+    moment = float(place @ mass) * beam.mass_per_length * beam.length**2
+    print_line("length", f"{beam.length:g} m, on a hub of {beam.hub_radius:g} m")
+    print_line("mass", f"{beam.mass:.7g} kg")
+    print_line("first moment", f"{moment:.7g} kg m about the clamp")
+    print_line("center of mass", f"{moment / beam.mass:.5g} m from the clamp")
+    _print_section(beam)
+    print_columns(
+        {
+            "mode": list(map(str, range(1, rest.frequencies.size + 1))),
+            "at rest [Hz]": formatted(rest.frequencies / (2.0 * np.pi), ".6f"),
+            "[rad/s]": formatted(rest.frequencies, ".6f"),
+            **{title: formatted(values, ".6f") for title, values in turning.items()},
+            **{f'"{way}" [%]': formatted(changes, "+.4f") for way, changes in others.items()},
+        },
+        title=f"Frequencies, {'with' if shear else 'without'} shear",
+    )
+    for way, changes in others.items():
+        print_note(
+            f'"{way}": the change with interpolation = "{way}" in [blade.stations]'
+            + ("; these frequencies did not settle" if np.isnan(changes).any() else "")
+        )
+
+
+def _changes(
+    beam: Blade, section: StationSection, way: Interpolation, theory: Theory, known: FloatArray
+) -> FloatArray:
+    """Return the relative changes of frequencies [%] with the other interpolation."""
+    other = replace(beam, section=replace(section, interpolation=way))
+    try:
+        found = analytic.linear_modes(other, 0.0, known.size, theory=theory).frequencies
+    except ValueError:  # it did not settle
+        return np.full_like(known, np.nan)
+    return 100.0 * (found / known - 1.0)
+
+
+def _print_section(beam: Blade) -> None:
+    """Print stiffness and mass at the root, at the tip, and their extremes."""
+    section = beam.section
+    if isinstance(section, StationSection):
+        print_line("stations", f"{len(section.x)}")
+        values = dict(zip(STIFFNESSES, section.stiffnesses.T, strict=True))
+        values["m"] = np.array(section.mass_per_length)[:, 1]
+    else:
+        x = np.linspace(0.0, 1.0, 257)
+        named = {"EA": "axial_stiffness", "EI": "bending_stiffness", "m": "mass_per_length"}
+        profiles = section.profiles()
+        values = {
+            name: evaluated(in_units(profiles[long], beam.length, 1.0), x)
+            for name, long in named.items()
+        }
+    units = {"E": "N m^2", "G": "N", "m": "kg/m"} | {"EA": "N", "GJ": "N m^2"}
+    print_columns(
+        {
+            "section": [f"{name} [{units.get(name) or units[name[0]]}]" for name in values],
+            "root": [float(of[0]) for of in values.values()],
+            "tip": [float(of[-1]) for of in values.values()],
+            "least": [float(of.min()) for of in values.values()],
+            "greatest": [float(of.max()) for of in values.values()],
+        },
+        title="Stiffness about the centers of tension and shear, mass per length",
+    )
