@@ -52,7 +52,7 @@ class Theory:
     """
 
     extension: bool = True
-    shear: float | None = None  # True is a number too
+    shear: float | bool | None = None
     engesser: bool = False
     rotary_inertia: bool = False
     trapeze: bool = True

@@ -102,12 +102,12 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
             for name in ("motion", "numerics")
             if name in document
         }
-        run["theory"] = document.get("theory", {})
-        Theory(**run["theory"])
+        theory = document.get("theory", {})
+        Theory(**theory)
         loads = [from_description(one, Load) for one in document.get("loads", [])]
     except (OverflowError, TypeError, ValueError) as error:
         raise ValueError(f"{source}: {error}") from error
-    return RunFile(beam=beam, loads=loads, **run)
+    return RunFile(beam=beam, loads=loads, theory=theory, **run)
 
 
 def _number(name: str, value: object) -> Any:

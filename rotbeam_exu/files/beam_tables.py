@@ -47,7 +47,7 @@ _BLADE = {
 NUMERICS = Table(
     {}, {"element": Element, "elements": int, "step": float, "duration": float, "frame": Frame}
 )
-THEORY = Table({}, {**table_of(Theory).optional, "shear": (float, bool)})
+THEORY = table_of(Theory)
 _DOCUMENT = Table(
     {},
     {
