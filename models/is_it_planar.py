@@ -3,9 +3,8 @@ r"""Is the motion planar?
 
 The paper's :math:`A` and :math:`I` may be those of a rectangle or of a thin tube. The tube stays in
 the plane of rotation; the rectangle, 37 mm by 2 mm, leaves it. These are the four pictures of
-:doc:`/theory/planar`. Flap and torsion have a damping ratio of 0.5 % in the first one: how fast
-planar orbits of the rectangle leave the plane; white is stable, circles are the ends of the paper's
-spin-ups.
+:doc:`/theory/planar`. The first one shows which planar orbits of the rectangle leave the plane, if
+flap and torsion have a damping ratio of 0.5 %.
 """
 
 import runpy
@@ -24,12 +23,13 @@ plt.style.use([figures.STYLE, {"animation.html": FILM}])
 beam = Beam.reference()
 strip, tube = beam.with_shape(Rectangle()), beam.with_shape(Tube(radius=0.015, wall=0.00077))
 data = comparison.growth_out_of_plane(
-    strip, omegas=np.linspace(0.0, 6.0, 25), amplitudes=np.geomspace(0.01, 0.3, 35)
+    strip, omegas=np.linspace(0.0, 7.0, 36), amplitudes=np.geomspace(0.01, 0.3, 56)
 )
 ends = {2.0: [0.098, 0.119, 0.166, 0.219, 0.276], 4.0: [0.156, 0.190, 0.268], 6.0: [0.196, 0.231]}
 points = np.transpose([(omega, a) for omega, found in ends.items() for a in found])
 ax = figures.growth_out_of_plane(data)
-_ = ax.plot(*points, "wo", ms=3.2, mec="black", mew=0.7, clip_on=False)
+ax.plot(*points, "wo", ms=3.2, mec="black", mew=0.7, label="ends of the paper's spin-ups")
+_ = ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
 
 # %%
 # The limit at a speed, and the tube where the spin-ups to 4 rad/s end:
@@ -56,8 +56,8 @@ for ax, branch, title in zip(axes, branches, titles, strict=True):
     for part, look in ((planar.stable, "k-"), (~planar.stable, "k--")):
         ax.plot(np.where(part, planar.frequency, np.nan), planar.amplitude, look)
     ax.set_title(title, loc="left")
-axes[0].plot([], [], "k-", label="planar orbits")
-axes[0].legend()
+flat = axes[0].plot([], [], "k-", label="planar orbits")
+axes[0].legend(handles=[*axes[0].get_legend().legend_handles, *flat], loc="lower left")
 axes[1].get_legend().remove()
 
 # %%

@@ -19,6 +19,7 @@ from analytic.exact.beam.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
 from analytic.exact.free.orbits import Orbits
+from analytic.input_checks import shown
 from analytic.loads import Load, rippled
 from analytic.reduced.linear_frame import LinearResponse
 
@@ -35,6 +36,7 @@ from .runs.attributes import (
 )
 from .runs.shape import shape_of
 
+_APART = "only what belongs together makes one Dataset, so call dataset_of for each"
 _FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plane"}
 _MOMENTS = {"x": "torque", "y": "bending moment out of the plane", "z": "bending moment"}
 
@@ -59,6 +61,8 @@ def dataset_of(*results: Any) -> xr.Dataset:
     ------
     TypeError
         If a result is of another kind.
+    ValueError
+        If two results have a variable, a coordinate or an attribute of one name and other values.
 
     Warns
     -----
@@ -78,8 +82,22 @@ def dataset_of(*results: Any) -> xr.Dataset:
     """
     first, *more = map(_described, results)
     for other in more:
+        _require_together(first, other)
         first = first.assign(other).assign_attrs(other.attrs)
     return first
+
+
+def _require_together(first: xr.Dataset, other: xr.Dataset) -> None:
+    """Refuse results that have something of one name and other values."""
+    for name in (name for name in first.attrs if name in other.attrs):
+        one, two = first.attrs[name], other.attrs[name]
+        if not (np.array_equal(one, two) or str(one) == str(two)):  # nan is as nan
+            raise ValueError(
+                f"two results differ in {name}, {shown(one)} and {shown(two)}: {_APART}"
+            )
+    for name in (name for name in first.variables if name in other.variables):
+        if not first[name].identical(other[name]):
+            raise ValueError(f"two results differ in their numbers of {name}: {_APART}")
 
 
 def frames_of(*results: Any) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Draw the README's pictures and three of the pages' again: `make images`, two minutes.
+"""Draw the README's pictures and two of the pages' again: `make images`, two minutes.
 
 Figure 14 is drawn from the golden data, which tests/comparison/golden/regenerate.py computes.
 """
@@ -96,12 +96,5 @@ if __name__ == "__main__":
     write(figures.figure_14(golden())[0], "figure_14")
     run = simulate(Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), elements=16)
     write(figures.spin_up(run)[0], "spin_up")
-    peaks = golden()["amplitude"].sel(mesh="paper").to_series().dropna()
-    growth = comparison.growth_out_of_plane()
-    ax = figures.growth_out_of_plane(growth)
-    peaks = peaks[peaks <= growth["a"].max().item()]
-    speeds = peaks.index.get_level_values("omega")
-    ax.plot(speeds, peaks, "wo", ms=3.2, mec="black", mew=0.7, clip_on=False)
-    write(ax, "planar_map")
     write(softening_by_plane(), "softening_by_plane")
     write(twisted(), "shape")

@@ -77,6 +77,9 @@ app.register_install_completion_command("--complete", help="Let the shell comple
 INTERNAL = 70
 """Exit code of an error of the program itself, EX_SOFTWARE of sysexits.h."""
 
+UNREAD = 141
+"""Exit code where nobody reads on, as a shell has it of SIGPIPE."""
+
 _FORESEEN = (
     cyclopts.CycloptsError, ImportError, MemoryError, OSError, OverflowError, RuntimeError,
     TypeError, ValueError,
@@ -102,7 +105,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except BrokenPipeError:
             # Who reads has read enough, as `head` does; the exit must not flush into it again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            sys.exit(1)
+            sys.exit(UNREAD)
         except (Exception, KeyboardInterrupt) as error:
             told = isinstance(error, KeyboardInterrupt) or not met
             text, code = _ending(error if told else KeyboardInterrupt())

@@ -34,6 +34,10 @@ class _Console(Console):
     def render_str(self, text: str, *rest: Any, **options: Any) -> Text:
         return super().render_str(harmless(text), *rest, **options)
 
+    def on_broken_pipe(self) -> None:
+        """Leave the exit code to `main`; rich's is 1."""
+        raise BrokenPipeError
+
 
 def new_console(*, stderr: bool = False) -> Console:
     """Return a console that prints text as it is: no [markup], no :emoji:, no line broken."""

@@ -14,6 +14,7 @@ from analytic import VARIANTS, Beam, Variant, periodic_orbits, reduced_model
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.lazily import interpolate
+from analytic.reduced.lagrangian import axial_model
 from analytic.reduced.shapes import (
     CantileverMode,
     converged_degree,
@@ -214,7 +215,7 @@ def model_budget(
     frequencies before and after its step; the sources add up to the whole error. The first are the
     linear frequency (both relative to the model's own ω_n), the perturbation (Eq. 63 less Eq. 41
     solved exactly from the peak a) and the shape (cantilever's mode for the rotating one). Then
-    come the elongation (sine for the static solution), the foreshortening (-v'²/2 for -v'²/2 -
+    come the elongation (its own for the static solution), the foreshortening (-v'²/2 for -v'²/2 -
     v'⁴/8), the Coriolis modes (FrC less FrM), and the rest between FrM and the exact beam.
 
     Returns
@@ -258,6 +259,7 @@ def model_budget(
 def _stages(variant: Variant) -> list[Variant]:
     """Return the model, and the models that follow as one fault after another is taken away."""
     rotating = replace(variant, shape="rotating")
-    static = replace(rotating, axial="static") if variant.axial == "sine" else rotating
+    stretches = axial_model(variant.axial).elongation is not None
+    static = replace(rotating, axial="static") if stretches else rotating
     consistent = replace(static, axial="consistent")
     return [variant, rotating, static, consistent, VARIANTS["FrM"]]

@@ -203,8 +203,16 @@ def _start(
         return None
     require_planar(case.beam)
     x = np.linspace(0.0, 1.0, len(reference))
-    state = units.state(initial_state(case.beam.length * x))
-    return case.model.coordinates(case.beam.unit.hub + x, state)
+    state = initial_state(case.beam.length * x)
+    if not case.model.leaves_plane:
+        for name in ("w", "w_slope", "w_dot", "w_slope_dot"):
+            if largest := float(np.max(np.abs(getattr(state, name)))):
+                raise ValueError(
+                    f"element {case.model.name!r} stays in the plane of rotation, out of which "
+                    f"initial_state moves the blade by {name} up to {largest:.3g}: take "
+                    "element='space_exact'"
+                )
+    return case.model.coordinates(case.beam.unit.hub + x, units.state(state))
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:

@@ -9,7 +9,6 @@ import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import SymLogNorm
 
 from analytic.exact.linear.campbell import Campbell
 from analytic.plotting import FOLD, UNSTABLE, backbone_drawn, draw_response
@@ -18,7 +17,6 @@ from ..paper import BLUE, ORANGE, RED
 from .style import colormap, column, house_axes, ink, label, quantity, ramp
 
 _GROWTH = {"period doubling": ("s", BLUE), "divergence": ("^", RED), "sum resonance": ("o", ORANGE)}
-_GROWTH_LEVELS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # [1/s]
 _DAMPINGS = {"bending": ("$η_b$", "s"), "axial": ("$η_a$", "s"), "external": ("$d$", "kg/(m s)")}
 
 
@@ -157,7 +155,7 @@ def softening_map(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 def growth_out_of_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
-    """Draw the map of growth rates over speed and amplitude; white stays in the plane.
+    """Draw where planar orbits leave their plane, over speed and amplitude; white stays in it.
 
     The line is where growth begins: the limit, and below it the tongues. It is smooth with damping,
     where what is stable decays. Grey is where no orbit was found.
@@ -166,16 +164,12 @@ def growth_out_of_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     with house_axes(ax, column(), 3.2) as axes:
         axes.set_facecolor("0.8")
         known = np.ma.masked_invalid(rate.T)
-        axes.contourf(omega, a, known, [-np.inf, 0.0], colors="white")
-        drawn = axes.contourf(
-            omega, a, known, _GROWTH_LEVELS, norm=SymLogNorm(0.1, vmin=0.0, vmax=100.0),
-            cmap=colormap("YlOrRd"), extend="max",
-        )  # fmt: skip
-        bar = axes.figure.colorbar(drawn, ax=axes, ticks=_GROWTH_LEVELS, format="%g")
-        bar.set_label(label(data["growth_rate"]))
+        shade = mpl.colormaps[colormap("YlOrRd")](0.2)
+        axes.contourf(omega, a, known, [-np.inf, 0.0, np.inf], colors=["white", shade])
         axes.contour(omega, a, known, [0.0], colors="black", linewidths=0.7)
         axes.plot([], [], color="black", lw=0.7, label="limit and tongues")
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+        axes.text(0.03, 0.6, "leaves the plane", transform=axes.transAxes)
         axes.text(0.97, 0.1, "stable in the plane", transform=axes.transAxes, ha="right")
         axes.set(
             xlabel=label(data["omega"]), ylabel=label(data["a"]), yscale="log",

@@ -60,7 +60,7 @@ def frequencies(blade, omega=0.0, count=4, theory=SHEARED):
 
 @pytest.mark.parametrize("size", [0.03, 0.005, 0.001])
 def test_stations_in_between_change_nothing(size):
-    """Matrices linear about the line have a first flap that is up to 21 % higher at 0.005."""
+    """Whatever the size of the jumps, over radii of gyration of 0.016 at the root."""
     coarse, fine = (frequencies(blade_of(jumps(size, "tension"), n), theory=RIGID) for n in (1, 4))
     assert coarse == pytest.approx(fine, rel=2e-9)
 
@@ -164,7 +164,7 @@ def test_finite_elements_of_sections_made_by_hand_have_its_frequencies():
 
 
 def test_matrices_linear_about_the_line_as_in_beamdyn():
-    """Frequencies of this package before it interpolated components; a fifth of the flap more."""
+    """Frequencies of this package before it interpolated components; the third is 18 % higher."""
     centers = jumps(0.005, *CENTERS)
     known = [4.284364327306014, 4.5665221143000325, 7.784755764320086, 10.944690045547175]
     blade = blade_of(centers, interpolation="matrix")

@@ -174,7 +174,13 @@ def test_refusals(blade, told, words):
 
 
 def test_the_picture(of_strip):
+    """Lag, flap and twist fill their scales, and ticks are frequencies, not their differences."""
     axes = of_strip.plot()
     assert [text.get_text() for text in axes.get_legend().get_texts()] == [
-        "lag, |q|/L", "flap, |w|/L", "twist [rad]",
+        "lag, |q|/L", "flap, |w|/L (right)", "twist [rad] (right)",
     ]  # fmt: skip
+    (right,) = (one for one in axes.figure.axes if one is not axes)
+    for own, largest in ((axes, of_strip.largest[:, 0]), (right, of_strip.largest[:, 1:])):
+        assert own.get_ylim() == pytest.approx((0.0, 1.1 * largest.max()))
+    axes.figure.canvas.draw()
+    assert not axes.xaxis.get_major_formatter().get_offset()

@@ -1,8 +1,10 @@
 """However a command ends: no leavings, no traceback, sentences that are printed as they are."""
 
 import io
+import os
 import resource
 import signal
+import subprocess
 import sys
 import warnings
 from contextlib import contextmanager, suppress
@@ -103,6 +105,16 @@ def test_an_error_of_the_program_has_an_exit_code_of_its_own(call, monkeypatch, 
     assert said.startswith(f"rotbeam: internal error, not of your input: {type(error).__name__}")
     assert len(said.splitlines()) == 1
     assert "test_endings.py:" in said
+
+
+def test_a_pipe_that_nobody_reads_is_no_failed_run():
+    """Of the judge 1 would be a code that differs."""
+    unread, pipe = os.pipe()
+    os.close(unread)
+    command = [sys.executable, "-m", "rotbeam_exu.cli", "doctor"]
+    done = subprocess.run(command, stdout=pipe, stderr=subprocess.PIPE, check=False)
+    os.close(pipe)
+    assert (done.returncode, done.stderr) == (141, b"")
 
 
 def test_paths_are_no_markup(call, tmp_path):

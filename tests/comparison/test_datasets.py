@@ -141,6 +141,35 @@ def test_columns_are_the_result_s():
     assert frames_of(oscillating())["amplitude"]["frequency"].item() == pytest.approx(3.7)
 
 
+@pytest.mark.parametrize(
+    ("results", "sentence"),
+    [
+        ([lambda w=w: analytic.linear_modes(BEAM, w) for w in (2.0, 6.0)], "omega, 2.0 and 6.0"),
+        (
+            [
+                lambda: analytic.linear_modes(BEAM, 2.0),
+                lambda: analytic.periodic_orbits(BEAM, 6.0, 0.1),
+            ],
+            "omega, 2.0 and 6.0",
+        ),
+        ([lambda R=R: spun(BEAM.with_hub_radius(R)) for R in (1.0, 2.0)], "blade, "),
+        (
+            [lambda n=n: analytic.linear_modes(BEAM, 2.0, n) for n in (2, 3)],
+            "error, ",
+        ),
+    ],
+)
+def test_results_that_differ_make_no_dataset(results, sentence):
+    """Not even where all but one number is the same: the first would be lost."""
+    with pytest.raises(ValueError, match=rf"two results differ in .*{sentence}.*for each"):
+        dataset_of(*(result() for result in results))
+
+
+def test_one_result_twice_is_one():
+    found = analytic.linear_modes(BEAM, 2.0)
+    assert dataset_of(found, found).identical(dataset_of(found))
+
+
 def test_a_file_says_of_which_theory_and_load_an_answer_is(tmp_path):
     """Also where the theory's shear is the truth value that a table of stations takes."""
     table = Blade.from_stations(

@@ -10,7 +10,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from analytic import periodic_orbits
+from analytic import Variant, periodic_orbits
+from analytic.reduced.lagrangian import AXIAL_MODELS, AxialModel
 from rotbeam_exu import comparison
 
 GOLDEN = Path(__file__).parent / "golden"
@@ -141,6 +142,21 @@ def test_figure_15_agrees_with_the_golden_data(beam):
     found = data[["q_bar", "q_dot_bar"]].to_dataframe().reset_index()
     assert np.allclose(kept["q_bar"], found["q_bar"], atol=1e-6)
     assert np.allclose(kept["q_dot_bar"], found["q_dot_bar"], atol=1e-6)
+
+
+def test_the_budget_books_an_axial_model_of_another_elongation_as_such(beam, monkeypatch):
+    """From the static solution on it is FrE's."""
+    parabola = AxialModel(elongation=lambda x, _: (2 * x - x**2, 2 - 2 * x, -2 + 0 * x))
+    monkeypatch.setitem(AXIAL_MODELS, "parabola", parabola)
+    stretched = Variant(name="FrP", shape="rotating", axial="parabola")
+    monkeypatch.setitem(comparison.theory.VARIANTS, "FrP", stretched)
+    monkeypatch.setattr(comparison.theory, "MODELS", ("FrE", "FrP"))
+    budget = comparison.model_budget(beam, omegas=(6.0,), amplitudes=(0.2,)).squeeze()
+    error = budget["error"].sel(model="FrP").to_series()
+    known = budget["error"].sel(model="FrE").to_series()
+    after = [*error.index].index("elongation") + 1
+    assert abs(error["elongation"]) > 1e-3
+    assert error.iloc[after:].to_numpy() == pytest.approx(known.iloc[after:].to_numpy(), abs=1e-12)
 
 
 def test_model_budget_adds_up_and_blames_the_truncation(beam):

@@ -71,6 +71,10 @@ def in_space(blade, **options):
         (in_space(STRIP.with_offsets(mass=(0.01, 0.0))), r"blade.with_offsets\(\)"),
         (in_space(STRIP.with_twist(0.1), initial_state=kicked(STRIP)), "in its plane"),
         ({"loads": [Gravity(tilt=1.0)]}, "'cable' stays in the plane of rotation"),
+        *(
+            ({"element": name, "initial_state": kicked(STRIP)}, f"{name}' stays .* take element=")
+            for name in ("cable", "exact", "ancf3", "linear", "substructures")
+        ),
         # Loads.
         ({"loads": (TipForce(amplitude=1.0),)}, "the frequency of a tip force of 1 N: give"),
         ({"loads": (SpeedRipple(amplitude=1.0),)}, "needs the frequency of a ripple"),

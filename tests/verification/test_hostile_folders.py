@@ -130,6 +130,18 @@ FLOODS = {
     "no rows of CSV": ("L.csv", TABLE + 'a"b"c,"\n' * 2_000, r"no row of CSV.* 1,999 more\)"),
     "columns": ("L.csv", ",".join(f"c{k}" for k in range(10**6)), r":1: has 7,888,889 letters"),
     "alike columns": ("L.csv", TABLE.replace("\n", ",x" * 4000 + "\n"), r"column 'x' occurs twice"),
+    "names": ("entry.toml", ENTRY.replace("mine", "x" * 2_000_000), r"code has 2,000,000 letters"),
+    "authors": (
+        "entry.toml",
+        ENTRY + f"authors = {['a'] * 10**5}",
+        r"authors must be a short list",
+    ),
+    "long key": ("entry.toml", "k" * 2_000_000 + " = 1", r"unknown key 'kkk"),
+    "file names": (
+        "runs.csv",
+        "file,elements,step\n" + f"S1/m1_h{'1' * 9000}.csv,1,1\n" * 99,
+        r"98",
+    ),
     "runs": ("runs.csv", "file,elements,step\n" + "x,y,z\n" * 2_000, r"'x' is no case.*1,999"),
     "keys": ("entry.toml", "".join(f"k{k}=1\n" for k in range(300)), r"'k0'.* 299 more"),
     "nesting": ("entry.toml", "a = " + "[" * 30_000, r"is not valid TOML: "),

@@ -75,7 +75,7 @@ class LeavingBranch(Branch):
     --------
     >>> from analytic import Beam, backbone
     >>> oval = Beam.reference().with_section_out_of_plane(0.9, 0.8)
-    >>> found = backbone(oval, omega=0.0, functions=6).leaving(0.3, 0.4, points=3)
+    >>> found = backbone(oval, omega=0.0, functions=6).leaving(0.3, 0.4, points=12)
     >>> print(f"born at a = {found.born.amplitude:.5f}, a whirl: {found.mirror}")
     born at a = 0.35808, a whirl: True
     >>> axes = found.plot()
@@ -95,24 +95,33 @@ class LeavingBranch(Branch):
         return np.array([np.abs(course).max(axis=0) for course in self._courses])
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the largest lag, flap and twist over the frequency, unstable orbits dashed.
+        """Draw the largest lag over the frequency, unstable orbits dashed, and flap and twist.
 
-        The frequency is that of the lag: `periods` times the orbits' own.
+        The frequency is that of the lag: `periods` times the orbits' own. Flap and twist have a
+        scale of their own, on the right.
         """
         ax, stable = axes_or_new(ax), self.stable
         frequency = np.append(self.born.frequency, self.periods * self.frequency)
+        right = ax.twinx()
+        right.spines["right"].set_visible(True)
         starts = (self.born.amplitude, 0.0, 0.0)
-        names = ("lag, |q|/L", "flap, |w|/L", "twist [rad]")
-        courses = zip(names, starts, (2.0, 1.2, 0.6), self.largest.T, strict=True)
-        for name, start, width, height in courses:
+        names = ("lag, |q|/L", "flap, |w|/L (right)", "twist [rad] (right)")
+        on = ((ax, "C0", 2.0), (right, "C1", 1.2), (right, "C2", 0.8))
+        for name, start, (axes, color, width), height in zip(
+            names, starts, on, self.largest.T, strict=True
+        ):
             draw_response(
-                ax, frequency, np.append(start, height), np.append(stable[:1], stable),
-                np.zeros(frequency.size, dtype=bool), label=name, lw=width,
+                axes, frequency, np.append(start, height), np.append(stable[:1], stable),
+                np.zeros(frequency.size, dtype=bool), label=name, color=color, lw=width,
             )  # fmt: skip
         ax.plot(self.born.frequency, self.born.amplitude, "o", color="black", ms=4.0)
-        ax.set(xlabel="frequency of the lag [rad/s]", ylabel="largest value at the tip")
-        ax.set_ylim(bottom=0.0)
-        ax.legend()
+        ax.set(xlabel="frequency of the lag [rad/s]", ylabel="largest lag of the tip, |q|/L")
+        right.set(ylabel="largest flap |w|/L, twist [rad]")
+        for axes, heights in ((ax, self.largest[:, 0]), (right, self.largest[:, 1:])):
+            axes.set_ylim(0.0, 1.1 * heights.max())
+            axes.ticklabel_format(useOffset=False)
+        lines = [line for axes in (ax, right) for line in axes.get_legend_handles_labels()[0]]
+        ax.legend(handles=lines)
         return ax
 
     def __str__(self) -> str:

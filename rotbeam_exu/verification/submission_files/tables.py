@@ -31,7 +31,7 @@ DIGITS, LEAST_DIGITS = 8, 5
 
 HISTORIES = [name for name, case in CASES.items() if case.asked is Asked.HISTORY]
 _HISTORY = re.compile(
-    r"([^/]*)/m([0-9]{1,9})_([ht])((?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:e[-+]?[0-9]{1,3})?)\.csv"
+    r"([^/]*)/m([0-9]{1,9})_([ht])((?:[0-9]{1,20}(?:\.[0-9]{1,20})?|\.[0-9]{1,20})(?:e[-+]?[0-9]{1,3})?)\.csv"
 )
 """Name of a history's file: case, elements, and step [s] or tolerance."""
 
