@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+
+import numpy as np
 
 from .input_checks import flag, positive, shown
 
@@ -15,10 +17,10 @@ class Theory:
     ----------
     extension : bool
         Whether the axis stretches; False is the limit of the slenderness μ → 0.
-    shear : float or True, optional
+    shear : float or bool, optional
         Shear stiffness over axial stiffness, k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the
-        blade, of Reissner's beam. True takes that of a blade from stations, which tell it. None of
-        a beam whose slices stay normal to the axis.
+        blade, of Reissner's beam. True takes that of a blade from stations, which tell it. None or
+        False of a beam whose slices stay normal to the axis.
     engesser : bool
         Whether the tension acts along the slope of the axis, Engesser's law, not along the normal
         of the section, Reissner's; of a beam that shears, in the plane.
@@ -50,7 +52,7 @@ class Theory:
     """
 
     extension: bool = True
-    shear: float | None = None  # True is a number too
+    shear: float | bool | None = None
     engesser: bool = False
     rotary_inertia: bool = False
     trapeze: bool = True
@@ -58,6 +60,8 @@ class Theory:
     def __post_init__(self) -> None:
         for name in ("extension", "engesser", "rotary_inertia", "trapeze"):
             object.__setattr__(self, name, flag(name, getattr(self, name)))
+        if isinstance(self.shear, bool | np.bool_):
+            object.__setattr__(self, "shear", bool(self.shear) or None)
         if self.shear is None:
             if self.engesser:
                 raise ValueError("engesser=True is a law of shear: give shear, as shear=0.32")
@@ -76,6 +80,10 @@ class Theory:
         if self.shear is not None:
             return "Timoshenko, Engesser's law" if self.engesser else "Timoshenko"
         return "with rotary inertia" if self.rotary_inertia else "Bernoulli-Euler"
+
+    def __str__(self) -> str:
+        given = ((one.name, getattr(self, one.name), one.default) for one in fields(self))
+        return f"Theory({', '.join(f'{name}={now}' for name, now, usual in given if now != usual)})"
 
 
 BERNOULLI_EULER = Theory()

@@ -17,7 +17,7 @@ from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
 from .motion import chosen_times, configured, motion_of, slower_than_paper
-from .options import Config, Number, RampTime, SteadySpeed, Whole
+from .options import Config, Number, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
 from .output import bar, print_text
 
 
@@ -31,6 +31,7 @@ def animate(
     run: Path | None = None,
     height: Number | None = None,
     width: Number | None = None,
+    theory: TheoryPairs = None,
     config: Config = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
@@ -72,17 +73,17 @@ def animate(
     whole_number("rate", rate)
     kept = None if run is None else load(run)
     if kept is None:
-        file = configured(config, "motion", "numerics.duration")
-        beam = file.beam
+        file = configured(config, "motion", "numerics.duration", "theory")
+        beam, law = file.beam, theory_of(file, theory)
         spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
         speed, ramp = spin_up.omega, spin_up.ramp_time
         usual = max(chosen_times(beam, 12.0)[0], 2.0 * ramp)
         known = file.numerics.get("duration", usual) if duration is None else duration
         duration = positive("duration", known, "s")
-    elif [one for one in (omega, ramp_time, duration, beside, config) if one is not None]:
+    elif [one for one in (omega, ramp_time, duration, beside, theory, config) if one is not None]:
         raise ValueError(
-            "--run shows a run as it is: leave out --omega, --ramp-time, --duration, --beside and "
-            "--config"
+            "--run shows a run as it is: leave out --omega, --ramp-time, --duration, --beside, "
+            "--theory and --config"
         )
     else:
         beam, speed, ramp = beam_of(kept.attrs), kept.attrs["omega"], kept.attrs["ramp_time"]
@@ -109,7 +110,10 @@ def animate(
         times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
         points = np.linspace(0.0, beam.length, 41)
         with bar("integrating"):
-            data = dataset_of(spin_up_response(beam, spin_up, times, tolerance=1e-5, points=points))
+            exact = spin_up_response(
+                beam, spin_up, times, tolerance=1e-5, points=points, theory=law
+            )
+            data = dataset_of(exact)
             if beside:
                 linear = dataset_of(linear_response(beam, spin_up, times, points=points))
     else:

@@ -15,7 +15,7 @@ from analytic.warning import warn
 
 from .job import Flag
 from .motion import configured, omega_of
-from .options import Amplitudes, Config, Omega, Whole
+from .options import Amplitudes, Config, Omega, TheoryPairs, Whole, theory_of
 from .output import Format, bar, print_columns, print_note
 
 if TYPE_CHECKING:
@@ -35,6 +35,7 @@ def backbone(
     exact: Flag = False,
     mode: str = "lag 1",
     functions: Whole = 16,
+    theory: TheoryPairs = None,
     config: Config = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
@@ -68,13 +69,15 @@ def backbone(
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
     $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
-    file = configured(config, "motion.omega")
-    omega = omega_of(file, omega)
+    file = configured(config, "motion.omega", "theory")
+    omega, law = omega_of(file, omega), theory_of(file, theory)
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
     names = told or (["FrM"] if mode == "lag 1" else [])
     exact = exact or not told
+    if law != analytic.Theory() and not exact:
+        raise ValueError(f"{law} is a theory of the exact beam: add --exact")
     refused: list[Refusal] = []
     models = []
     for name in names:
@@ -86,7 +89,7 @@ def backbone(
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
     if exact:
-        orbits, failure = _exact(file.beam, omega, amplitude, mode, functions)
+        orbits, failure = _exact(file.beam, omega, amplitude, mode, functions=functions, theory=law)
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
         columns |= _exact_columns(orbits, amplitude, len(models))
@@ -117,12 +120,12 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 
 def _exact(
-    beam: AnyBlade, omega: float, amplitude: list[float], mode: str, functions: int
+    beam: AnyBlade, omega: float, amplitude: list[float], mode: str, **how: Any
 ) -> tuple[Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:
         with bar("exact orbits"):
-            return analytic.periodic_orbits(beam, omega, amplitude, mode, functions=functions), ""
+            return analytic.periodic_orbits(beam, omega, amplitude, mode, **how), ""
     except analytic.AmplitudeNotReachedError as error:
         if error.orbits is None:
             raise

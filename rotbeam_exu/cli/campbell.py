@@ -14,7 +14,7 @@ from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
 from .motion import chosen_speeds, configured
-from .options import Number, SectionOptions, Whole
+from .options import Number, SectionOptions, TheoryPairs, Whole, theory_of
 from .output import bar, formatted, print_columns
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ def campbell(
     count: Whole = 3,
     orders: Whole = 6,
     shape: SectionOptions = SectionOptions(),
+    theory: TheoryPairs = None,
     config: Path | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: Number | None = None,
@@ -69,14 +70,14 @@ def campbell(
     """
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
-    file = configured(config, "motion.omega")
+    file = configured(config, "motion.omega", "theory")
     beam = shape.of(file.beam)
     usual = 2.0 * file.motion.get("omega", chosen_speeds(beam, 6.0)[0])
     highest = usual if omega_max is None else omega_max
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
     with bar("modes"):
-        diagram = analytic.campbell(beam, speeds, count, orders)
+        diagram = analytic.campbell(beam, speeds, count, orders, theory=theory_of(file, theory))
     if out is None:
         _print(diagram)
         return

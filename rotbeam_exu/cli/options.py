@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, fields, make_dataclass, replace
@@ -12,11 +13,13 @@ from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter, Token
 
-from analytic import AnyBlade, Damping
+from analytic import AnyBlade, Damping, Theory
 from analytic.description import kinds_of
 from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
+from ..files.beam_file import RunFile
+from ..files.beam_tables import THEORY, require_keys
 from .job import Flag, telling_what_is_kept
 from .output import counter
 
@@ -68,14 +71,22 @@ Amplitudes = Annotated[
 Config = Annotated[
     Path | None,
     Parameter(
-        help="TOML file with [beam] or [blade], and optionally [motion], [numerics] and [[loads]]; "
-        "options given here replace its values. Without a file: the paper's beam."
+        help="TOML file with [beam] or [blade], and optionally [motion], [numerics], [theory] and "
+        "[[loads]]; options given here replace its values. Without a file: the paper's beam."
     ),
 ]
 Omega = Annotated[
     Number | None,
     Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
 ]
+TheoryPairs = Annotated[
+    list[str] | None,
+    Parameter(
+        name="--theory", consume_multiple=True, metavar="KEY=VALUE",
+        help="Theory of the exact beam, pairs of extension, shear, engesser, rotary_inertia and "
+        "trapeze, as trapeze=false shear=0.3; over [theory] of the file.",
+    ),
+]  # fmt: skip
 SteadySpeed = Annotated[
     Number | None,
     Parameter(
@@ -88,6 +99,20 @@ RampTime = Annotated[
     Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
 ]
 NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
+
+
+def theory_of(file: RunFile, given: Sequence[str] | None) -> Theory:
+    """Return the theory of --theory, whose pairs are lines of TOML, over [theory] of the file."""
+    pairs = given or ()
+    try:
+        told = tomllib.loads("\n".join(pairs))
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(
+            f"--theory takes key=value as in a file, as trapeze=false shear=0.3, got "
+            f"{' '.join(pairs)!r}: {error}"
+        ) from error
+    require_keys(told, THEORY, "--theory")
+    return Theory(**{**file.theory, **told})
 
 
 def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:

@@ -42,8 +42,8 @@ def ramp(
     finite_element_points
         Ramp times of runs in Exudyn, evenly spaced; 0 for none.
     element
-        Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in
-        space space_cable, space_exact.
+        Beam formulation: cable (unless given), exact, ancf3, linear, substructures; or one's own,
+        as module:Class.
     elements
         Number of elements, 16 unless given.
 

@@ -12,9 +12,20 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
-from .job import Flag, Results
+from ..runs.attributes import theory_attributes
+from .job import Results
 from .motion import configured, omega_of
-from .options import Config, Dampings, Loads, NoFigure, Number, Whole, option_of
+from .options import (
+    Config,
+    Dampings,
+    Loads,
+    NoFigure,
+    Number,
+    TheoryPairs,
+    Whole,
+    option_of,
+    theory_of,
+)
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -29,7 +40,7 @@ def respond(
     loads: Loads = Loads(),
     dampings: Dampings = Dampings(),
     points: Whole = 41,
-    inextensible: Flag = False,
+    theory: TheoryPairs = None,
     functions: Whole = 10,
     config: Config = None,
     no_figure: NoFigure = False,
@@ -51,8 +62,6 @@ def respond(
         Rotation speed [rad/s], unless [motion] of the file has it; not under gravity.
     points
         Number of frequencies, ends included, at which the curve has points.
-    inextensible
-        Leave the axial motion out.
     functions
         Functions that resolve the beam along its length, at least.
 
@@ -64,8 +73,8 @@ def respond(
     from ..datasets import response_inputs
 
     load = loads.one()
-    file = configured(config, "motion.omega")
-    beam = dampings.on(file.beam)
+    file = configured(config, "motion.omega", "theory")
+    beam, law = dampings.on(file.beam), theory_of(file, theory)
     if beam is file.beam and not any(beam.unit.damping):  # and no zero is given
         raise ValueError(
             "the blade is undamped, and at resonance its response has no end: give "
@@ -85,13 +94,12 @@ def respond(
     frequencies = np.linspace(first, last, whole_number("points", points, least=2))
     inputs = {
         **response_inputs(beam, load, omega),
-        "from": first, "to": last, "points": points, "inextensible": int(inextensible),
-        "functions": functions,
+        "from": first, "to": last, "points": points, "functions": functions,
+        **theory_attributes(law),
     }  # fmt: skip
 
     def computed() -> ForcedResponse:
-        theory = analytic.Theory(extension=not inextensible)
-        how: Any = {"theory": theory, "functions": functions}
+        how: Any = {"theory": law, "functions": functions}
         with bar("following the curve"):
             if omega is None:
                 return analytic.forced_response(beam, frequencies, load, **how)

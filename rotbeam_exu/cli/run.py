@@ -12,11 +12,11 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..runs.attributes import beam_attributes
+from ..runs.attributes import beam_attributes, theory_attributes
 from ..runs.check import energy_drift
 from .job import Flag, Results
 from .motion import Discretization, Driving, configured, motion_of
-from .options import Config, NoFigure, Number, RampTime, SteadySpeed, Whole
+from .options import Config, NoFigure, Number, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
 from .output import bar, print_line
 
 if TYPE_CHECKING:
@@ -154,13 +154,14 @@ def reference(
     duration: Number | None = None,
     samples: Whole = 1501,
     tolerance: Number = 1e-8,
+    theory: TheoryPairs = None,
     config: Config = None,
     results: Results = Results(),
 ) -> None:
     """Write the exact spin-up as netCDF and CSV.
 
-    The beam is geometrically exact and extensible (Bernoulli-Euler), without loads; step and
-    functions are refined until two solutions agree.
+    The beam is geometrically exact, extensible unless its theory says otherwise, and without loads;
+    step and functions are refined until two solutions agree.
 
     Parameters
     ----------
@@ -176,22 +177,25 @@ def reference(
     $ rotbeam reference
     $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
     """
-    file = configured(config, "motion", "numerics.duration")
+    file = configured(config, "motion", "numerics.duration", "theory")
     if duration is None:
         duration = file.numerics.get("duration")
-    tolerance = positive("tolerance", tolerance)
+    law, tolerance = theory_of(file, theory), positive("tolerance", tolerance)
     samples = whole_number("samples", samples, least=2)
     motion = motion_of(file, omega=omega, ramp_time=ramp_time, duration=duration)
     spin_up = motion.spin_up
     inputs = {
         **beam_attributes(file.beam), "omega": spin_up.omega, "ramp_time": spin_up.ramp_time,
         "duration": motion.duration, "samples": samples, "tolerance": tolerance,
+        **theory_attributes(law),
     }  # fmt: skip
     times = np.linspace(0.0, motion.duration, samples)
 
     def computed() -> SpinUpResponse:
         with bar("integrating"):
-            return analytic.spin_up_response(file.beam, spin_up, times, tolerance=tolerance)
+            return analytic.spin_up_response(
+                file.beam, spin_up, times, tolerance=tolerance, theory=law
+            )
 
     name = f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
     results.job(name, inputs, computed, _print_reference)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,10 +13,18 @@ from analytic.input_checks import not_negative
 
 from ..files.result_tables import parts
 from ..lazily import xr
-from ..runs.attributes import beam_attributes
+from ..runs.attributes import beam_attributes, theory_attributes
 from .job import Results
 from .motion import configured, omega_of
-from .options import Amplitudes, Config, Number, Omega, SectionOptions
+from .options import (
+    Amplitudes,
+    Config,
+    Number,
+    Omega,
+    SectionOptions,
+    TheoryPairs,
+    theory_of,
+)
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
@@ -33,6 +41,7 @@ def stability(
     amplitude: Amplitudes = _AMPLITUDES,
     mode: str = "lag 1",
     damping_ratio: Number = 0.0,
+    theory: TheoryPairs = None,
     config: Config = None,
     results: Results = Results(),
 ) -> None:
@@ -59,7 +68,7 @@ def stability(
     $ rotbeam stability --omega 2 --section rectangle --damping-ratio 0.005
     """
     not_negative("damping-ratio", damping_ratio)
-    file = configured(config, "motion.omega")
+    file = configured(config, "motion.omega", "theory")
     omega = omega_of(file, omega)
     blade = shape.of(file.beam)
     require_planar(
@@ -73,14 +82,14 @@ def stability(
     amplitudes = sorted(set(amplitude))
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
     inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
-    inputs |= {"damping_ratio": damping_ratio}
+    law = theory_of(file, theory)
+    inputs |= {"damping_ratio": damping_ratio, **theory_attributes(law)}
+    how: Any = {"damping": damping_ratio, "theory": law}
 
     def computed() -> tuple[PlanarStability, StabilityLimit, xr.Dataset]:
         with bar("growth out of the plane"):
-            found = analytic.planar_stability(blade, omega, amplitudes, mode, damping=damping_ratio)
-            limit = analytic.stability_limit(
-                blade, omega, mode, damping=damping_ratio, largest=amplitudes[-1]
-            )
+            found = analytic.planar_stability(blade, omega, amplitudes, mode, **how)
+            limit = analytic.stability_limit(blade, omega, mode, largest=amplitudes[-1], **how)
         return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 
     results.job(

@@ -12,8 +12,10 @@ from matplotlib.axes import Axes
 
 from analytic.exact.linear.campbell import Campbell
 from analytic.plotting import FOLD, UNSTABLE, backbone_drawn, draw_response
+from analytic.theory import BERNOULLI_EULER
 
 from ..paper import BLUE, ORANGE, RED
+from ..runs.attributes import theory_of
 from .style import colormap, column, house_axes, ink, label, quantity, ramp
 
 _GROWTH = {"period doubling": ("s", BLUE), "divergence": ("^", RED), "sum resonance": ("o", ORANGE)}
@@ -45,7 +47,7 @@ def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = N
             free = highest["backbone_frequency"].to_numpy()
             line = backbone_drawn(free, highest["backbone_amplitude"].to_numpy())
             axes.plot(*line, color="0.3", lw=0.5, zorder=1, label="backbone")
-            axes.set_title(f"ω = {quantity(highest.attrs['omega'], 'rad/s')}", loc="left")
+            axes.set_title(_of(highest), loc="left")
         if any(not curve["stable"].all() for curve in curves):
             axes.plot([], [], color="0.3", label="unstable", **UNSTABLE)
         if any(fold.any() for fold in folds):
@@ -57,6 +59,12 @@ def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = N
         axes.xaxis.set_major_locator(mpl.ticker.MaxNLocator(6, steps=[1, 2, 5, 10]))
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, columnspacing=1.2)
     return axes
+
+
+def _of(data: xr.Dataset) -> str:
+    """Return the speed, and the theory where it is another than Bernoulli and Euler's."""
+    speed, theory = f"ω = {quantity(data.attrs['omega'], 'rad/s')}", theory_of(data.attrs)
+    return speed if theory == BERNOULLI_EULER else f"{speed}, {theory}"
 
 
 def _title(curve: xr.Dataset) -> str:
@@ -92,7 +100,7 @@ def planar_stability(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         else:
             axes.set_yscale("log")
         axes.set(xlabel=label(data["a"]), ylabel=label(data["growth_rate"]), xlim=(0.0, None))
-        axes.set_title(f"ω = {quantity(data.attrs['omega'], 'rad/s')}", loc="left")
+        axes.set_title(_of(data), loc="left")
         axes.legend()
     return axes
 

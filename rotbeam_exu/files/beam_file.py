@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
-from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section
+from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section, Theory
 from analytic.description import from_description
 from analytic.input_checks import positive, rotation_speed, shown, whole_number
 from analytic.loads import Load
@@ -32,6 +32,7 @@ class RunFile:
     motion: Mapping[str, float] = field(default_factory=dict)
     loads: Sequence[Load] = ()
     numerics: Mapping[str, Any] = field(default_factory=dict)
+    theory: Mapping[str, Any] = field(default_factory=dict)
 
 
 def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
@@ -75,11 +76,12 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
 
 
 def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> RunFile:
-    """Read [beam] or [blade], as `load_beam` does, and the tables [motion], [numerics], [[loads]].
+    """Read [beam] or [blade], as `load_beam` does, and the tables of a run.
 
     [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
-    duration [s] and frame; each [[loads]] the kind of a load and its fields. A file with one of
-    these may do without a beam, unless it `needs_beam`. Errors are those of `load_beam`.
+    duration [s] and frame; [theory] the arguments of a `Theory`; each [[loads]] the kind of a load
+    and its fields. A file with one of these may do without a beam, unless it `needs_beam`. Errors
+    are those of `load_beam`.
     """
     source = Path(path)
     document = _read_toml(source)
@@ -100,10 +102,12 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
             for name in ("motion", "numerics")
             if name in document
         }
+        theory = document.get("theory", {})
+        Theory(**theory)
         loads = [from_description(one, Load) for one in document.get("loads", [])]
     except (OverflowError, TypeError, ValueError) as error:
         raise ValueError(f"{source}: {error}") from error
-    return RunFile(beam=beam, loads=loads, **run)
+    return RunFile(beam=beam, loads=loads, theory=theory, **run)
 
 
 def _number(name: str, value: object) -> Any:

@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hint
 
 from numpy.typing import ArrayLike
 
-from analytic import Beam, Blade, Damping, PointMass, Section
+from analytic import Beam, Blade, Damping, PointMass, Section, Theory
 from analytic.description import Described, kinds_of
 from analytic.loads import Load
 from analytic.parts import Line
@@ -47,6 +47,7 @@ _BLADE = {
 NUMERICS = Table(
     {}, {"element": Element, "elements": int, "step": float, "duration": float, "frame": Frame}
 )
+THEORY = table_of(Theory)
 _DOCUMENT = Table(
     {},
     {
@@ -56,6 +57,7 @@ _DOCUMENT = Table(
             Table({"stations": _STATIONS}, _BLADE),
         ),
         "motion": Table({}, {"omega": float, "ramp_time": float}),
+        "theory": THEORY,
         "numerics": NUMERICS,
         "loads": list[Load],
     },

@@ -55,6 +55,14 @@ def theory_attributes(theory: Theory) -> dict[str, Any]:
     }
 
 
+def theory_of(attrs: Mapping[Any, Any]) -> Theory:
+    """Return the theory that the attributes of an answer describe."""
+    known = {k.name: attrs[k.name] for k in fields(Theory) if k.name in attrs}
+    # A number among them is the ratio of shear.
+    told: dict[str, Any] = {k: v if isinstance(v, float) else bool(v) for k, v in known.items()}
+    return Theory(**told)
+
+
 def motion_of(attrs: Mapping[Any, Any]) -> Motion:
     """Return the rotation of the clamp that the attributes of a run describe."""
     if "motion" in attrs:

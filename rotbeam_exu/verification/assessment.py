@@ -107,7 +107,8 @@ class Assessment:
         if not self.coarse:
             return "equations solved"
         why = "element of another limit" if self.elsewhere else "mesh too coarse"
-        return f"equations solved; {why}, {100.0 * self.mesh_error:+.2g} %"
+        error = self.mesh_error if self.why_not else self.error
+        return f"equations solved; {why}, {100.0 * error:+.2g} %"
 
     def _share(self, error: float) -> str:
         """Return how large an error is beside the nonlinear effect."""

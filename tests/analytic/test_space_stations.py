@@ -21,7 +21,7 @@ from analytic.description import describe, from_description
 from analytic.exact.beam.state import Driven
 from analytic.exact.space.modes import space_modes_on
 from analytic.exact.space.steady import space_continuum
-from tests.beams import finite_elements, unit_beam
+from tests.beams import finite_elements, told, unit_beam
 
 MU, R, G = 1e-4, 1.0 / 16.0, 0.08
 X = np.linspace(0.0, 1.0, 4)
@@ -256,6 +256,16 @@ def test_the_swept_tip_of_epps_and_chandra():
         assert np.all(found < np.array(known) + 6e-6)
         moved = (steady_state(blade, w, theory=SHEARED).tip[:2] for w in (omega, 0.0))
         assert np.subtract(*moved) == pytest.approx(tip, abs=6e-8)
+
+
+def test_a_line_of_twenty_kinks_is_nearly_that_of_a_smooth_sweep():
+    """A panel lies between two of them, so that the first size is beyond the usual most."""
+    kinked = straight = told(BEAM, 2.0 * MU, R, G)
+    for place in (np.arange(1, 21) / 21).tolist():
+        kinked = kinked.with_kink(place, sweep=0.005)
+    swept = straight.with_sweep(0.005 * 21)
+    frequencies = linear_modes(kinked, 1.0, 3).frequencies
+    assert frequencies == pytest.approx(linear_modes(swept, 1.0, 3).frequencies, rel=1e-5)
 
 
 def test_kinks_turn_what_lies_beyond_them_about_axes_of_their_own_section():

@@ -49,7 +49,7 @@ def test_an_example_ends_well_or_begins_what_takes_minutes(call, tmp_path, monke
     if command == "judge":
         assert call("kit", "benchmark")[0] == 0
         shutil.copytree(tmp_path / "benchmark" / "sample", tmp_path / arguments[0])
-    if command in ("explore", "blade"):  # which refuse a mesh, or a motion too
+    if command in ("explore", "blade", "compare"):  # which refuse a mesh, or a motion too
         (tmp_path / "beam.toml").write_text(BEAM.partition("[motion]")[0])
     code, out, error = call(command, *arguments)
     assert code == 130 or (code == 0 and out), error

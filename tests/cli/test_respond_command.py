@@ -67,7 +67,8 @@ def test_each_load_is_taken(call, tmp_path, load_option, kind, size):
     omega = () if kind == "Gravity" else ("--omega", "6")
     code, out, _ = call(
         "respond", *load_option, *omega, "--external-damping", "0.5", "--from", "4.5", "--to", "5",
-        "--points", "2", "--functions", "6", "--inextensible", "--no-figure", "--out", tmp_path,
+        "--points", "2", "--functions", "6", "--theory", "extension=false", "--no-figure",
+        "--out", tmp_path,
     )  # fmt: skip
     assert code == 0
     data = load(next(tmp_path.glob("*.nc")))
@@ -104,7 +105,8 @@ def test_a_twisted_blade_has_lag_flap_and_twist_of_its_tip(call, tmp_path):
     data, _ = answered(
         call, tmp_path, "bending_ratio = 0.25, torsion_ratio = 0.3",
         "[blade.line]\ntwist = [0.0, 0.5]\n[blade.damping]\nbending = 0.1\nexternal = 0.1\n",
-        "--gravity", "0.5", "--from", "2", "--to", "2.5", "--functions", "6", "--inextensible",
+        "--gravity", "0.5", "--from", "2", "--to", "2.5", "--functions", "6",
+        "--theory", "extension=false",
     )  # fmt: skip
     assert data["lag"].to_numpy() == pytest.approx(data["amplitude"].to_numpy(), rel=0.05)
     assert (data["lag"] > data["flap"]).all()

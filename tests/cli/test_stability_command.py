@@ -25,8 +25,8 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
     monkeypatch.setattr(
         analytic,
         "stability_limit",
-        lambda blade, omega, mode, *, damping, largest: StabilityLimit(
-            blade=blade, omega=omega, mode=mode, damping=damping, growth=0.01,
+        lambda blade, omega, mode, *, largest, **how: StabilityLimit(
+            blade=blade, omega=omega, mode=mode, **how, growth=0.01,
             amplitude=np.inf, searched=largest, kind="", modes=(), tongues=(tongue,),
             converged=True,
         ),
@@ -67,9 +67,10 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
 def test_damping_makes_the_growth_slower(call, tmp_path, beam, monkeypatch):
     """By the ratio, and by the damping of the file's blade; the limit is tested without a door."""
 
-    def told(blade, omega, mode, **asked):
+    def told(blade, omega, mode, *, largest, **how):
+        del largest
         return StabilityLimit(
-            blade=blade, omega=omega, mode=mode, damping=asked["damping"], growth=1e-6,
+            blade=blade, omega=omega, mode=mode, **how, growth=1e-6,
             amplitude=0.0402, searched=0.1, kind="divergence", modes=("flap 1",), tongues=(),
             converged=True,
         )  # fmt: skip

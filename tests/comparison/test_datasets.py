@@ -34,9 +34,8 @@ def spun(blade):
 def limit():
     tongue = Tongue(low=0.1, high=0.2, growth=1e-3, kind="divergence", modes=("flap 1",))
     return StabilityLimit(
-        blade=STRIP, omega=6.0, mode="lag 1", damping=0.0,
-        growth=1e-2, amplitude=np.inf, searched=0.3,
-        kind="", modes=(), tongues=(tongue,), converged=True,
+        blade=STRIP, omega=6.0, mode="lag 1", damping=0.0, theory=Theory(), growth=1e-2,
+        amplitude=np.inf, searched=0.3, kind="", modes=(), tongues=(tongue,), converged=True,
     )  # fmt: skip
 
 
@@ -142,6 +141,18 @@ def test_columns_are_the_result_s():
     assert frames_of(oscillating())["amplitude"]["frequency"].item() == pytest.approx(3.7)
 
 
+def of_orbits():
+    """Results about orbits, of a theory that is not the usual one."""
+    how = {"theory": Theory(rotary_inertia=True, trapeze=False)}
+    strip = BEAM.with_shape(analytic.Rectangle())
+    of = analytic.backbone(BEAM, 6.0, **how)
+    yield "orbits", of.orbits([0.05])
+    yield "curve", of.curve(up_to=0.1)
+    yield "branch", of.branch(up_to=0.1)
+    yield "stability", analytic.planar_stability(strip, 6.0, [0.05], **how)
+    yield "limit", analytic.stability_limit(strip, 6.0, largest=0.05, **how)
+
+
 @pytest.mark.parametrize(
     ("results", "sentence"),
     [
@@ -183,6 +194,7 @@ def test_a_file_says_of_which_theory_and_load_an_answer_is(tmp_path):
         ("spin-up", spun_up, {"shear": 1, "trapeze": 0}),
         ("steady", analytic.steady_state(TWISTED, 1.0, **lifted), lifted),
         ("modes", analytic.linear_modes(table, 1.0, theory=sheared), {"shear": 1, "trapeze": 0}),
+        *((name, found, {"rotary_inertia": 1, "trapeze": 0}) for name, found in of_orbits()),
     ):
         save(dataset_of(found), tmp_path / f"{name}.nc")
         attrs = load(tmp_path / f"{name}.nc").attrs

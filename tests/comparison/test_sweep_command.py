@@ -17,7 +17,7 @@ def test_table_files_and_a_failed_case_whose_sentence_is_whole(call, tmp_path, m
     assert len(failed) == 1
     assert "the tip does not oscillate within the" in failed[0]
     assert code == 1
-    assert out.count("passed") == 1
+    assert out.count("solved") == 1
     for sentence in failed:
         assert sentence in out
     assert "…" not in out

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic import Rectangle, Tube, planar_stability
+from analytic import Rectangle, Theory, Tube, planar_stability
 from analytic.exact.plane.stability_limit import StabilityLimit
 from rotbeam_exu import comparison, dataset_of, figures
 
@@ -20,9 +20,8 @@ def test_growth_over_the_amplitude(beam):
     # No line joins orbits between which others may stay.
     assert all(line.get_linestyle() == "None" for line in axes.lines)
     limit = StabilityLimit(
-        blade=blade, omega=2.0, mode="lag 1", damping=0.0,
-        growth=0.01, amplitude=0.28, searched=0.3,
-        kind="", modes=(), tongues=(), converged=True,
+        blade=blade, omega=2.0, mode="lag 1", damping=0.0, theory=Theory(), growth=0.01,
+        amplitude=0.28, searched=0.3, kind="", modes=(), tongues=(), converged=True,
     )  # fmt: skip
     (line,) = figures.planar_stability(dataset_of(found, limit)).lines[-1:]
     assert line.get_label() == "limit, a = 0.28"

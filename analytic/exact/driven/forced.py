@@ -273,9 +273,8 @@ def _packed(beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]) -> 
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
     return ForcedResponse(
-        **ForcedResponse.told(beam, orbits),
+        **ForcedResponse.told(beam, theory, orbits),
         load=load,
-        theory=theory,
         omega=beam.frequency_scale * np.array([o.system.speed(o.frequency) for o in orbits]),
         harmonics=np.array(harmonics),
         residual=np.array([orbit.residual for orbit in orbits]),

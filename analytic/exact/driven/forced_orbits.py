@@ -13,7 +13,6 @@ from ...beam import require_out_of_plane, undamped
 from ...input_checks import finite_array, finite_number, not_negative
 from ...loads import Load
 from ...plotting import axes_or_new, draw_response
-from ...theory import Theory
 from ...threads import one_thread
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpecialPoint
@@ -74,7 +73,6 @@ class ForcedResponse(Branch):
     _tolerance: ClassVar[float] = 1e-9
 
     load: Load
-    theory: Theory
     omega: FloatArray
     harmonics: ComplexArray = field(repr=False)
     residual: FloatArray = field(repr=False)

@@ -15,6 +15,7 @@ from ...beam import AnyBlade
 from ...input_checks import finite_number, finite_values, points_of_beam, whole_number
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
+from ...theory import Theory
 from ..beam.state import BeamState, SectionLoads, in_newtons
 from ..beam.steady import state_of
 
@@ -44,15 +45,17 @@ class OrbitSet:
     _tolerance: ClassVar[float] = 1e-6
 
     beam: AnyBlade
+    theory: Theory
     frequency: FloatArray  # [rad/s], (orbits,)
     amplitude: FloatArray  # peak |q|/L, (orbits,)
     nondimensional: tuple[Orbit[Any], ...] = field(repr=False)  # in time t √(EI/mL³)
 
     @staticmethod
-    def told(beam: AnyBlade, orbits: Sequence[Orbit[Any]]) -> dict[str, Any]:
+    def told(beam: AnyBlade, theory: Theory, orbits: Sequence[Orbit[Any]]) -> dict[str, Any]:
         """Return these attributes of orbits of a blade."""
         return {
             "beam": beam,
+            "theory": theory,
             "frequency": beam.frequency_scale * np.array([orbit.frequency for orbit in orbits]),
             "amplitude": np.array([orbit.amplitude for orbit in orbits]),
             "nondimensional": tuple(orbits),

@@ -20,6 +20,7 @@ from ...input_checks import finite_array
 from ...methods.continuation import MOST_FUNCTIONS, Care
 from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
+from ...theory import Theory
 from ...warning import warn
 from ..beam.steady import BeamOrbit
 from .internal_resonance import nearest_resonance
@@ -40,7 +41,7 @@ class BackboneCurve:
 
     Attributes
     ----------
-    beam, omega, mode : as given
+    beam, omega, mode, theory : as given
     omega_n : float
         ω_n [rad/s].
     holds_up_to : float
@@ -55,6 +56,7 @@ class BackboneCurve:
     beam: AnyBlade
     omega: float
     mode: str
+    theory: Theory
     omega_n: float
     holds_up_to: float
     error: float
@@ -175,6 +177,7 @@ def _fitted(of: ModePath, top: float) -> BackboneCurve:
         beam=of.beam,
         omega=of.omega,
         mode=of.mode,
+        theory=of.theory,
         omega_n=of.omega_n,
         holds_up_to=top,
         error=max(_tail(series), _tail(first), float(np.abs(apart).max())),

@@ -243,7 +243,7 @@ def leaving_branch(
     birth = leaving.orbit(amplitude)
     orbits, ended = _followed(leaving, birth, points)
     return LeavingBranch(
-        **LeavingBranch.told(of.beam, orbits),
+        **LeavingBranch.told(of.beam, of.theory, orbits),
         omega=of.omega,
         mode=of.mode,
         periods=periods,

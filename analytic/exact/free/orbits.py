@@ -35,7 +35,7 @@ class Orbits(OrbitSet):
 
     Attributes
     ----------
-    beam, omega, mode : as given
+    beam, omega, mode, theory : as given
     omega_n : float
         Its linear frequency ω_n [rad/s].
     amplitude : ndarray (orbits,)
@@ -205,7 +205,7 @@ def _packed(of: ModePath, orbits: list[BeamOrbit]) -> Orbits:
     softening, error = of.softening()
     count = max(orbit.harmonics for orbit in orbits)
     return Orbits(
-        **Orbits.told(of.beam, orbits),
+        **Orbits.told(of.beam, of.theory, orbits),
         omega=of.omega,
         mode=of.mode,
         omega_n=of.omega_n,

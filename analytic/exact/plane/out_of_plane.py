@@ -11,10 +11,11 @@ the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
 The second line is the trapeze effect, k² = (1 + r)EI/EA, and the propeller moment,
 ι = j3 - j2 = j(1 - r)/(1 + r). Slices without rotary inertia of bending feel the clamp's rotation
 alone, s = w̄, with j2 against flap; those with it turn by s = ϑ̇ + w̄, and theirs against flap is
-left out. w has no Coriolis force: about a periodic orbit it is a Hill equation. Also left out
-is what ϑ̇β adds to φ̇, of the order j; and at r = 1 the inertia against twist. The viscosity
-η_b of the blade resists the rates of β' - κφ and φ' + κβ. Of a damped planar motion EIη_b κ̇ adds
-to the moment EIκ, which the stiffness out of the plane takes back by its share r of EIκ alone.
+left out. w has no Coriolis force: about a periodic orbit it is a Hill equation. Also left out is
+what ϑ̇β adds to φ̇, of the order j, and the inertia against twist at r = 1 or where torsion is rigid.
+The viscosity η_b of the blade resists the rates of β' - κφ and φ' + κβ. Of a damped planar motion
+EIη_b κ̇ adds to the moment EIκ, which the stiffness out of the plane takes back by its share r of
+EIκ alone.
 """
 
 from __future__ import annotations

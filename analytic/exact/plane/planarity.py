@@ -114,12 +114,13 @@ class PlanarStability(GrowthOutOfPlane):
 
     Attributes
     ----------
-    blade, omega, mode : as given
+    blade, omega, mode, theory : as given
     """
 
     blade: AnyBlade
     omega: float
     mode: str
+    theory: Theory
 
     def __str__(self) -> str:
         unstable = ~self.stable
@@ -193,7 +194,9 @@ def planar_stability(
         free, omega, amplitudes, name, theory=theory, functions=max(16, 2 * int(name.split()[1]))
     )
     found = grown_about(blade, orbits, theory, ratio)
-    return PlanarStability(blade=blade, omega=orbits.omega, mode=orbits.mode, **found)
+    return PlanarStability(
+        blade=blade, omega=orbits.omega, mode=orbits.mode, theory=theory, **found
+    )
 
 
 def grown_about(

@@ -51,7 +51,7 @@ class StabilityLimit:
 
     Attributes
     ----------
-    blade, omega, mode, damping : as given
+    blade, omega, mode, damping, theory : as given
     growth : float
         Growth exponent over the orbit's frequency [1/rad] that counts.
     amplitude : float
@@ -73,6 +73,7 @@ class StabilityLimit:
     omega: float
     mode: str
     damping: float
+    theory: Theory
     growth: float
     amplitude: float
     searched: float
@@ -172,7 +173,7 @@ def _limit(orbits: PlanarOrbits, least: float, largest: float) -> StabilityLimit
         agreed = agreed and orbits.growth(below[-1], 3).per_radian < least if below else False
     return StabilityLimit(
         blade=orbits.blade, omega=orbits.omega, mode=orbits.mode, damping=orbits.damping,
-        growth=least, amplitude=amplitude, searched=searched,
+        theory=orbits.theory, growth=least, amplitude=amplitude, searched=searched,
         kind=what.kind if what else "", modes=what.modes if what else (),
         tongues=_tongues(orbits, seen, amplitude), converged=agreed,
     )  # fmt: skip

@@ -223,8 +223,12 @@ class SpaceBlade(AtConstantRate):
 
 
 def finer_blades(first: SpaceBlade) -> Iterator[SpaceBlade]:
-    """Yield a blade on more and more functions, up to the most that are taken."""
-    return refined(first, SpaceBlade.refined, lambda one: one.functions > MOST_FUNCTIONS)
+    """Yield a blade on more and more functions, up to the most that are taken, once at least.
+
+    Many kinks or stations need more from the beginning: a panel lies between two of them.
+    """
+    most = max(MOST_FUNCTIONS, first.functions)
+    return refined(first, SpaceBlade.refined, lambda one: one.functions > most)
 
 
 def space_rotation(beam: AnyBlade, omega: float, model: SpaceContinuum) -> SpaceBlade:
