@@ -176,7 +176,6 @@ THEORIES = {
     "rigid axis": Theory(extension=False), "shear": Theory(shear=0.3),
 }  # fmt: skip
 NOT_ALL = pytest.mark.xfail(strict=True, reason="of a planar blade they are the lag modes alone")
-TWO = pytest.mark.xfail(strict=True, reason="loads of planar sections have two components and one")
 NONE_YET = pytest.mark.xfail(strict=True, reason="in space no branch is followed beyond its folds")
 
 
@@ -209,7 +208,7 @@ def test_orbits_in_all_limits_are_those_of_the_planar_blade(verb, limit):
         spin_up,
         pytest.param(modes, marks=NOT_ALL),
         pytest.param(diagram, marks=NOT_ALL),
-        pytest.param(loads_of_orbits, marks=TWO),
+        loads_of_orbits,
         pytest.param(branch, marks=NONE_YET),
     ],
 )
