@@ -24,6 +24,7 @@ from .input_checks import (
 from .warning import warn
 
 _STEEP = 0.5 * math.pi  # of a precone or a kink: beyond it the line comes back
+_MUCH = 1.0  # [rad], by which few blades twist
 
 Offset = tuple[float, float]
 """(c2, c3): along the chord, to the leading edge, and along the thickness, of the section."""
@@ -69,7 +70,9 @@ def _checked_twist(twist: Any) -> Profile:
     values, slopes = evaluated(profile, x).tolist(), (at[-1] * slope_of(profile, x)).tolist()
     largest = checked_angle("twist", max(values, key=abs))
     steepest = max(slopes, key=abs)
-    if abs(steepest) > 2.0 * math.pi and abs(largest) <= math.pi:  # one question is enough
+    # Tables in radians may be as steep over a short cell. One question is enough.
+    much = max(values) - min(values) > _MUCH and abs(largest) <= math.pi
+    if abs(steepest) > 2.0 * math.pi and much:
         warn(
             f"twist has a slope of {steepest:.4g} rad over the length, more than a turn: in "
             f"degrees? {steepest:.4g} degrees are {math.radians(steepest):.4g} rad"

@@ -17,7 +17,7 @@ branch = backbone(Beam.reference(), omega=2.0, theory=Theory(extension=False)).b
 print(branch)
 
 _, ax = plt.subplots(figsize=(3.5, 3.6))
-(resonance,) = [one for one in branch.resonances if (one.harmonic, one.mode) == (6, 2)]
+(resonance,) = [one for one in branch.resonances if (one.harmonic, one.mode) == (6, "lag 2")]
 for piece in range(branch.piece.max() + 1):
     here = branch.piece == piece
     lower = branch.amplitude < resonance.amplitude
@@ -29,7 +29,7 @@ ax.plot([], [], "o", color="0.6", markersize=3, label="harmonic:mode")
 for one in branch.resonances:
     if one is not resonance:
         ax.plot(one.frequency, one.amplitude, "o", color="0.6", markersize=3)
-        left = one.mode == 4
+        left = one.mode == "lag 4"
         ax.annotate(f"{one.harmonic}:{one.mode}", (one.frequency, one.amplitude),
                     (-6 if left else 6, -3), textcoords="offset points", color="0.5", fontsize=6,
                     ha="right" if left else "left")  # fmt: skip

@@ -19,7 +19,7 @@ plt.style.use(figures.STYLE)
 blade = load_beam(Path(figures.__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml")
 rated, theory = 1.267, Theory(extension=False)  # 12.1 rpm
 diagram = campbell(blade, np.linspace(0.0, 1.6, 5), count=3, orders=3)
-orbits = periodic_orbits(blade, rated, [0.05], gauge="flap", theory=theory, functions=6)
+orbits = periodic_orbits(blade, rated, [0.05], mode="flap 1", theory=theory, functions=6)
 motion, times = SpinUp(omega=rated, ramp_time=4.0), np.linspace(0.0, 6.0, 121)
 start = spin_up_response(blade, motion, times, theory=theory, tolerance=1e-6)
 

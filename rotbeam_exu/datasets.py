@@ -112,9 +112,9 @@ def frames_of(*results: Any) -> dict[str, Any]:
     >>> from rotbeam_exu.datasets import frames_of
     >>> modes = frames_of(linear_modes(Beam.reference(), omega=6.0, count=2))["frequency"]
     >>> print(modes[["mode", "frequency", "lag_share"]].round(4))
-       mode  frequency  lag_share
-    0     1     3.7304        1.0
-    1     2    23.0101        1.0
+        mode  frequency  lag_share
+    0  lag 1     3.7304        1.0
+    1  lag 2    23.0101        1.0
     """
     frames = {}
     for name, part in parts(dataset_of(*results)).items():

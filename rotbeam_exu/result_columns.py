@@ -18,7 +18,7 @@ from analytic.exact.free.orbits import Orbits
 from analytic.exact.linear.campbell import Campbell
 from analytic.exact.plane.planarity import PlanarStability
 from analytic.exact.plane.stability_limit import StabilityLimit
-from analytic.exact.space.modes import LinearModes
+from analytic.exact.space.modes import FAMILIES, LinearModes
 from analytic.exact.space.steady_state import SteadyState
 from analytic.reduced.tables import PaperTable
 from analytic.spin_up.quiet import QuietRamps
@@ -95,6 +95,7 @@ _OF_ORBITS = ("omega", "mode", "omega_n", "lambda_omega", "lambda_omega_error")
 _POINTS = _columns("point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]") | {
     "mark": ("point", "what is special about the point", lambda found: [*found.marks])
 }
+_NAMES: Column = ("mode", "mode", lambda found: [*found.names])
 _FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
 
 COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
@@ -116,9 +117,9 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
         "beam", ("omega", "mode", "omega_n", "holds_up_to", "error"),
     ),
     LinearModes: (
-        _FREQUENCY | {
+        {"mode": _NAMES} | _FREQUENCY | {
             f"{name}_share": _part("shares", k, "mode", f"share of {name} in the kinetic energy")
-            for k, name in enumerate(("flap", "lag", "torsion"))
+            for k, name in enumerate(FAMILIES)
         },
         "beam", ("omega", "error"),
     ),
@@ -169,11 +170,11 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
     Campbell: (
         {
             "omega": _own("omegas", "omega", OMEGA),
-            "mode": _own("names", "mode", "mode"),
+            "mode": _NAMES,
             "frequency": _own("frequencies", ("omega", "mode"), "frequency [rad/s]"),
             "crossing_mode": (
                 "crossing", "mode that crosses k ω",
-                lambda found: np.array([found.name_of(one) for one in found.crossings], str),
+                lambda diagram: np.array([one.mode for one in diagram.crossings], str),
             ),
             "crossing_order": _each("crossing", "order", "order k", int),
             "crossing_omega": _each("crossing", "omega", OMEGA),

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from ..arrays import ComplexArray, FloatArray
 from ..beam import AnyBlade, require_planar
 from ..exact.driven.response import spin_up_response
-from ..exact.linear.modes import linear_modes
+from ..exact.linear.modes import driven_modes
 from ..input_checks import finite_array, flag, positive
 from ..lazily import interpolate
 from ..motion import SpeedChange, require_ramp
@@ -249,7 +249,7 @@ def _waves(
 
 def _exact(beam: AnyBlade, spin_up: SpeedChange, tolerance: float) -> float:
     """Return half peak to peak of the tip over L in the first period after the exact transient."""
-    period = 2.0 * math.pi / float(linear_modes(beam, spin_up.omega, 1).frequencies[0])
+    period = 2.0 * math.pi / float(driven_modes(beam, spin_up.omega).frequencies[0])
     T = spin_up.ramp_time
     during, after = np.linspace(0.0, T, 33), np.linspace(T, T + 1.1 * period, 300)
     response = spin_up_response(beam, spin_up, np.append(during, after), tolerance=tolerance)
@@ -266,7 +266,7 @@ def exact_residuals(
     """
     decay = modes_for(beam, ramp, count + 1).at(np.array([ramp.omega / beam.frequency_scale])).decay
     functions = max(20, 2 * (count + 1))
-    omegas = linear_modes(beam, ramp.omega, count + 1, functions=functions).frequencies
+    omegas = driven_modes(beam, ramp.omega, count + 1, functions=functions).frequencies
     # The times before tell how large the motion is, of which the tolerance is a share.
     during = np.linspace(0.0, ramp.ramp_time, _DURING)
     after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)

@@ -134,7 +134,8 @@ def mujoco(links: str, step: str) -> None:
     data, tip = mj.MjData(model), []
     middles = (np.arange(count) + 0.5) * link
     near = np.add.outer(1e-4 * link * np.array([1.0, -1.0]), middles)
-    above, below = linear_modes(STRIP, 0.0, 1, plane="flap").shapes(near.ravel()).reshape(2, -1)
+    flap = linear_modes(STRIP, 0.0, 1, only="flap").shapes(near.ravel())[2].real
+    above, below = flap.reshape(2, -1)
     slopes = KICK * STRIP.length * (above - below) / (2e-4 * link)
     data.qpos[2::3] = np.diff(slopes, prepend=0.0)
     t = h * np.arange(round(TIMES[-1] / h) + 1)

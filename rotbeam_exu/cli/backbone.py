@@ -11,7 +11,6 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import AnyBlade
-from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from .job import Flag
@@ -34,7 +33,7 @@ def backbone(
     variant: str | None = None,
     all_variants: Flag = False,
     exact: Flag = False,
-    mode: Whole = 1,
+    mode: str = "lag 1",
     functions: Whole = 16,
     theory: TheoryPairs = None,
     config: Config = None,
@@ -68,14 +67,14 @@ def backbone(
     $ rotbeam backbone --omega 6
     $ rotbeam backbone --omega 6 --all-variants --exact
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
-    $ rotbeam backbone --omega 6 --mode 2 --amplitude 0.02 0.05
+    $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
     file = configured(config, "motion.omega", "theory")
     omega, law = omega_of(file, omega), theory_of(file, theory)
-    if whole_number("mode", mode) > 1 and (variant is not None or all_variants):
-        raise ValueError("the reduced models are of mode 1: leave the variants out, or --mode")
+    if mode != "lag 1" and (variant is not None or all_variants):
+        raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
-    names = told or ([] if mode > 1 else ["FrM"])
+    names = told or (["FrM"] if mode == "lag 1" else [])
     exact = exact or not told
     if law != analytic.Theory() and not exact:
         raise ValueError(f"{law} is a theory of the exact beam: add --exact")
@@ -121,7 +120,7 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 
 def _exact(
-    beam: AnyBlade, omega: float, amplitude: list[float], mode: int, **how: Any
+    beam: AnyBlade, omega: float, amplitude: list[float], mode: str, **how: Any
 ) -> tuple[Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:

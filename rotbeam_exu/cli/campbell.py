@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,9 +10,6 @@ import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic import AnyBlade
-from analytic.exact.linear.modes import Plane
-from analytic.exact.space.steady import lives_in_space
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
@@ -42,8 +38,8 @@ def campbell(
     """Print frequencies over the speed, and where they cross k ω.
 
     Exact, extensible beam about its steady rotation; modes are tracked by shape, and resolved until
-    half as many functions again change no frequency by 1e-9. In the plane (lag), and where the
-    section out of it is known, out of it (flap) and in torsion.
+    half as many functions again change no frequency by 1e-9. Lag and axial modes, and where the
+    section out of the plane is known, flap and torsion.
 
     Parameters
     ----------
@@ -54,7 +50,7 @@ def campbell(
     points
         Number of speeds.
     count
-        Number of modes, of each family.
+        Number of modes, those lowest at the first speed.
     orders
         Lines k ω up to this k.
     config
@@ -81,9 +77,7 @@ def campbell(
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
     with bar("modes"):
-        diagram = analytic.campbell(
-            beam, speeds, count, orders, planes=_families(beam), theory=theory_of(file, theory)
-        )
+        diagram = analytic.campbell(beam, speeds, count, orders, theory=theory_of(file, theory))
     if out is None:
         _print(diagram)
         return
@@ -95,40 +89,27 @@ def campbell(
     )  # fmt: skip
 
 
-def _families(beam: AnyBlade) -> list[Plane]:
-    """Return the families of modes that the beam's section determines."""
-    known = beam.section.out_of_plane
-    if known is None or beam.unit.setting != 1.0 or lives_in_space(beam):
-        return ["lag"]
-    twists = known.torsion_ratio is not None and math.isfinite(known.torsion_ratio)
-    inert = beam.section.rotary_inertia != 0.0
-    return ["lag", "flap", "torsion"] if twists and inert else ["lag", "flap"]
-
-
 def _print(diagram: Campbell) -> None:
     """Print frequencies over speed, and the crossings, with as many digits as are known."""
 
-    def column(values: Iterable[float], plane: Plane) -> list[str]:
+    def column(values: Iterable[float], name: str) -> list[str]:
         # Torsion has four digits, for the section may be kept from warping.
-        return formatted(values, "#.4g" if plane == "torsion" else ".6f")
+        return formatted(values, "#.4g" if name.startswith("torsion") else ".6f")
 
     omega = "ω [rad/s]"
-    in_plane = set(diagram.planes) == {"lag"} and diagram.names[0] == "lag 1"
-    names = [f"mode {k}" for k, _ in enumerate(diagram.planes, 1)] if in_plane else diagram.names
-    columns = zip(names, diagram.planes, diagram.frequencies.T.tolist(), strict=True)
+    columns = zip(diagram.names, diagram.frequencies.T.tolist(), strict=True)
     print_columns(
         {omega: formatted(diagram.omegas, ".4g")}
-        | {name: column(found, plane) for name, plane, found in columns},
-        title=f"{'In-plane frequencies' if in_plane else 'Frequencies'} [rad/s]",
+        | {name: column(frequencies, name) for name, frequencies in columns},
+        title="Frequencies [rad/s]",
     )
     met = diagram.crossings
-    named = [names[diagram.planes.index(one.plane) + one.mode - 1] for one in met]
     print_columns(
         {
-            "mode": [name.removeprefix("mode ") for name in named] if in_plane else named,
+            "mode": [one.mode for one in met],
             "k": [str(one.order) for one in met],
-            omega: [cell for one in met for cell in column([one.omega], one.plane)],
-            "frequency [rad/s]": [x for one in met for x in column([one.frequency], one.plane)],
+            omega: [cell for one in met for cell in column([one.omega], one.mode)],
+            "frequency [rad/s]": [x for one in met for x in column([one.frequency], one.mode)],
         },
         title="Crossings with the lines k ω",
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 import analytic
 from analytic.beam import require_planar
-from analytic.input_checks import not_negative, whole_number
+from analytic.input_checks import not_negative
 
 from ..files.result_tables import parts
 from ..lazily import xr
@@ -23,7 +23,6 @@ from .options import (
     Omega,
     SectionOptions,
     TheoryPairs,
-    Whole,
     theory_of,
 )
 from .output import bar, formatted, print_columns, print_text
@@ -40,7 +39,7 @@ def stability(
     omega: Omega = None,
     shape: SectionOptions = SectionOptions(),
     amplitude: Amplitudes = _AMPLITUDES,
-    mode: Whole = 1,
+    mode: str = "lag 1",
     damping_ratio: Number = 0.0,
     theory: TheoryPairs = None,
     config: Config = None,
@@ -58,7 +57,7 @@ def stability(
         Amplitudes of the planar orbits over the length, one or several; the limit is searched up
         to the largest.
     mode
-        In-plane mode from which the orbits grow.
+        Mode of lag from which the orbits grow, as "lag 1".
     damping_ratio
         Damping ratio of all modes of flap and torsion, beside the damping of the file's blade.
 
@@ -68,7 +67,6 @@ def stability(
     $ rotbeam stability --omega 6 --section tube
     $ rotbeam stability --omega 2 --section rectangle --damping-ratio 0.005
     """
-    whole_number("mode", mode)
     not_negative("damping-ratio", damping_ratio)
     file = configured(config, "motion.omega", "theory")
     omega = omega_of(file, omega)
@@ -95,7 +93,7 @@ def stability(
         return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 
     results.job(
-        f"stability-{shape.name}-omega-{omega:g}-mode-{mode}", inputs, computed,
+        f"stability-{shape.name}-omega-{omega:g}-{mode.replace(' ', '-')}", inputs, computed,
         lambda found, _: _print(*found[:2]),
         table=lambda data: parts(data)["growth_rate"],
         draw=lambda figures, data: figures.planar_stability(data),

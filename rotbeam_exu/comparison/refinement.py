@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from analytic import linear_modes, spin_up_response
+from analytic import spin_up_response
 from analytic.arrays import FloatArray
+from analytic.exact.linear.modes import driven_modes
 from analytic.exact.space.steady import lives_in_space
 from analytic.input_checks import positive, whole_number
 
@@ -105,7 +106,7 @@ def refinement(
         theory = case.model.theory
         # Else flap, lag and torsion would have to be sorted.
         if not case.model.leaves_plane or lives_in_space(case.beam):
-            true = linear_modes(case.beam, case.omega, len(modes), theory=theory).frequencies
+            true = driven_modes(case.beam, case.omega, len(modes), theory=theory).frequencies
             apart = np.array([one.limit for one in modes]) * found[-1] / true - 1.0
         motion: Any = case.spin_up  # a change of the speed
         response = spin_up_response(

@@ -14,12 +14,12 @@ from analytic import (
     Beam,
     Rectangle,
     SpinUp,
-    linear_modes,
     quiet_ramp_times,
     residual_amplitude,
 )
 from analytic.arrays import FloatArray
 from analytic.description import describe
+from analytic.exact.linear.modes import driven_modes
 from analytic.exact.plane.planarity import growth_rates
 from analytic.input_checks import finite_values, positive, whole_number
 from analytic.reduced.any_blade import blade_oscillator
@@ -140,7 +140,7 @@ def residual(
 
 def _of_elements(blade: AnyBlade, ramp: SpinUp, element: Formulation, elements: int) -> float:
     """Return half peak to peak over L in the first period after the ramp, of a run."""
-    period = 2.0 * math.pi / float(linear_modes(blade, ramp.omega, 1).frequencies[0])
+    period = 2.0 * math.pi / float(driven_modes(blade, ramp.omega).frequencies[0])
     step = min(period / _STEPS, ramp.ramp_time / _STEPS)
     duration = step * math.ceil((ramp.ramp_time + 1.1 * period) / step)
     run = simulate(blade, ramp, element=element, elements=elements, duration=duration, step=step)

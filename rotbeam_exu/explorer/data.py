@@ -19,13 +19,13 @@ from analytic import (
     AnyBlade,
     Beam,
     SpinUp,
-    linear_modes,
     periodic_orbits,
     reduced_model,
     residual_amplitude,
     spin_up_response,
 )
 from analytic.arrays import FloatArray
+from analytic.exact.linear.modes import driven_modes
 from analytic.input_checks import RotbeamWarning
 
 from ..comparison.theory import beyond_range
@@ -244,7 +244,7 @@ def exact_spin_up(
     to be computed in seconds.
     """
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
-    period = 2.0 * math.pi / float(linear_modes(beam, omega, 1).frequencies[0])
+    period = 2.0 * math.pi / float(driven_modes(beam, omega).frequencies[0])
     times = np.linspace(0.0, duration, _SAMPLES)
     after = ramp_time + np.linspace(0.0, period, _A_PERIOD)
     both = np.union1d(times, after)

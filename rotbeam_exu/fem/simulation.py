@@ -283,7 +283,7 @@ def kicked(
     slope: Callable[[FloatArray], FloatArray] = lambda x: 2.0 * x / blade.length  # noqa: E731
     if by_mode:
         along = np.linspace(0.0, blade.length, _ALONG)
-        mode = linear_modes(blade, 0.0, 1, plane="flap").flap(along)[:, 0].real
+        mode = linear_modes(blade, 0.0, 1, only="flap").shapes(along)[2, :, 0].real
         slope = interpolate.CubicSpline(along, blade.length * mode).derivative()
 
     def state(x: FloatArray) -> BeamState:

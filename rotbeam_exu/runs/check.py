@@ -7,9 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from analytic import AnyBlade, linear_modes
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
 from analytic.beam import require_steady_state
+from analytic.exact.linear.modes import driven_modes
 from analytic.warning import warn
 
 from ..lazily import xr
@@ -82,7 +83,7 @@ def checked_steps(
             f"to follow it: take a step of {ramp_time / STEPS_PER_RAMP:.3g} s or less"
         )
     require_steady_state(beam, omega)
-    fastest, of = float(linear_modes(beam, omega, 1).frequencies[0]), "the natural frequency"
+    fastest, of = float(driven_modes(beam, omega).frequencies[0]), "the natural frequency"
     if driven and max(driven) > fastest:
         fastest, of = max(driven), "a load"
     period = 2.0 * math.pi / fastest

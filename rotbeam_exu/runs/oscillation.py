@@ -9,8 +9,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from analytic import AnyBlade, linear_modes
+from analytic import AnyBlade
 from analytic.arrays import FloatArray
+from analytic.exact.linear.modes import driven_modes
 from analytic.input_checks import RotbeamWarning, not_negative, positive
 
 from ..lazily import xr
@@ -222,7 +223,7 @@ def _exact_frequency(beam: AnyBlade, omega: float) -> float | None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RotbeamWarning)  # said when the run was made
         try:
-            return float(linear_modes(beam, omega, 1).frequencies[0])
+            return float(driven_modes(beam, omega).frequencies[0])
         except ValueError:
             return None  # so fast that theory has no answer to compare with
 

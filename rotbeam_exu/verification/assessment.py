@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import analytic
+from analytic.exact.linear.modes import driven_modes
 
 from ..fem.case import RunCase
 from ..fem.elements import formulation
@@ -203,7 +204,7 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
         of = case.beam, case.omega
         return float(natural_frequencies(*of, element=case.element, elements=elements, count=1)[0])
 
-    exact_modes = analytic.linear_modes(case.beam, case.omega, 1, theory=theory)
+    exact_modes = driven_modes(case.beam, case.omega, theory=theory)
     return Assessment(
         theory=theory.name, omega_n=omega_n(case.elements),
         refined_omega_n=omega_n(2 * case.elements),

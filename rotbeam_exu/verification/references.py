@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response, steady_state
 from analytic.arrays import FloatArray
+from analytic.exact.linear.modes import driven_modes
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 
@@ -184,11 +185,8 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
         scales = np.abs(row) / (blade.length, blade.length, 1.0)
         return row, COMPUTED_BOUND + steady.error / float(scales.min())
     if case.in_space:
-        # A straight blade comes here too: its `linear_modes` are those in its plane. Loaded late.
-        from analytic.exact.space.modes import space_modes  # noqa: PLC0415
-
-        return space_modes(blade, speed, case.count, theory).frequencies, COMPUTED_BOUND
-    return linear_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
+        return linear_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
+    return driven_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
 
 
 class Sampled(NamedTuple):

@@ -64,7 +64,7 @@ def test_shape_of_the_answers(curves):
 @pytest.mark.filterwarnings(ALL)
 def test_before_a_resonance_it_says_how_far_it_holds(beam):
     """Harmonic 6 meets mode 2 at a = 0.64, 2 rad/s, where the orbits have a fold."""
-    with pytest.warns(RotbeamWarning, match=r"holds to 1e-08 up to a = .*harmonic 6 is .* mode 2"):
+    with pytest.warns(RotbeamWarning, match=r"holds to 1e-08 up to a = .*harmonic 6 is .* lag 2"):
         curve = backbone_curve(beam, 2.0, up_to=0.7)
     assert 0.5 < curve.holds_up_to < 0.6375
     a = np.array([0.2, 0.4, curve.holds_up_to])
@@ -76,8 +76,8 @@ def test_before_a_resonance_it_says_how_far_it_holds(beam):
 
 def test_second_mode_and_a_blade(beam):
     a = np.array([0.012, 0.035])
-    curve = backbone_curve(beam, 4.0, up_to=0.04, mode=2)
-    orbits = periodic_orbits(beam, 4.0, a, mode=2)
+    curve = backbone_curve(beam, 4.0, up_to=0.04, mode="lag 2")
+    orbits = periodic_orbits(beam, 4.0, a, mode="lag 2")
     np.testing.assert_allclose(curve.frequency(a), orbits.frequency, rtol=1e-8)
     blade = beam.with_tip_mass(0.5 * beam.mass)
     orbits = periodic_orbits(blade, 3.0, a)

@@ -1,5 +1,7 @@
 """Tables of stations, lines and shapes with one fault at random: one sentence that names it."""
 
+import warnings
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -146,6 +148,13 @@ def test_stations_of_a_line_are_those_of_its_blade(vary, at):
 def test_an_angle_in_degrees_is_asked_about(call, sentence):
     with pytest.warns(RotbeamWarning, match=sentence):
         call()
+
+
+def test_a_steep_cell_of_a_small_twist_is_not_asked_about():
+    """IEA's blade turns by 0.066 rad in a hundredth of its length."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        BLADE.with_twist([(0, 0.27), (4, 0.2), (4.08, 0.134), (8, 0)])
 
 
 @pytest.mark.parametrize(

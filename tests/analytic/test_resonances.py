@@ -50,10 +50,13 @@ def multipliers(monkeypatch):
     monkeypatch.setattr(internal_resonance, "floquet_multipliers", found)
 
 
-def of(modes=MODES, mode=1):
+def of(modes=MODES, place=0):
     """The path of a mode, whose unit of frequency is 3 rad/s."""
     beam = SimpleNamespace(frequency_scale=3.0)
-    return SimpleNamespace(modes=modes, mode=mode, beam=beam, at_resonance="")
+    names = [f"lag {k}" for k in range(1, len(modes) + 1)]
+    return SimpleNamespace(
+        modes=modes, mode=names[place], place=place, names=names, beam=beam, at_resonance=""
+    )
 
 
 def along(amplitudes, **options):
@@ -63,16 +66,20 @@ def along(amplitudes, **options):
 def test_ratios_are_followed_through_whole_and_half_numbers():
     amplitudes = np.arange(0.05, 0.8, 0.05)
     modes, ratios = frequency_ratios(of(3.0 * MODES), along(amplitudes))
-    assert modes == [2, 3, 4, 5]
+    assert modes == ["lag 2", "lag 3", "lag 4", "lag 5"]
     assert ratios == pytest.approx(MODES[1:5] + FACTOR * amplitudes[:, None] ** 2, abs=1e-12)
     # Of the second mode the first is among the others.
-    assert frequency_ratios(of(MODES / 5.5, 2), along([0.05]))[0] == [1, 3, 4, 5]
+    assert frequency_ratios(of(MODES / 5.5, 1), along([0.05]))[0][:2] == ["lag 1", "lag 3"]
 
 
 def test_resonances_are_where_ratios_are_whole_or_the_harmonic_has_its_pole():
     amplitudes = np.arange(0.05, 0.71, 0.025)
     found = resonances_along(of(), along(amplitudes))
-    assert [(one.harmonic, one.mode) for one in found] == [(6, 2), (17, 3), (7, 2)]
+    assert [(one.harmonic, one.mode) for one in found] == [
+        (6, "lag 2"),
+        (17, "lag 3"),
+        (7, "lag 2"),
+    ]
     assert [one.amplitude for one in found] == sorted(one.amplitude for one in found)
     by_number = {one.harmonic: one for one in found}
     # The sixth's own pole counts, of the others the ratio; straight between orbits 0.025 apart.
@@ -83,9 +90,9 @@ def test_resonances_are_where_ratios_are_whole_or_the_harmonic_has_its_pole():
         assert one.frequency == pytest.approx(3.0 * (2.0 - one.amplitude**2), abs=2e-3)
     # Without Coriolis forces an orbit has no even harmonics.
     still = resonances_along(of(), along(amplitudes, rate=0.0))
-    assert [(one.harmonic, one.mode) for one in still] == [(17, 3), (7, 2)]
+    assert [(one.harmonic, one.mode) for one in still] == [(17, "lag 3"), (7, "lag 2")]
     flapping = resonances_along(of(), along(amplitudes, setting=1e-17))
-    assert [(one.harmonic, one.mode) for one in flapping] == [(17, 3), (7, 2)]
+    assert [(one.harmonic, one.mode) for one in flapping] == [(17, "lag 3"), (7, "lag 2")]
 
 
 def test_frequencies_between_orbits_are_on_straight_lines():
@@ -104,7 +111,7 @@ def test_a_resonance_is_pinned_down_between_two_orbits(background):
 
     asked = []
     orbits = [at(a) for a in (0.2, 0.3, 0.4, 0.5, 0.55)]
-    near, place = pinned(at, orbits, Resonance(6, 2, 0.35, 1.0))
+    near, place = pinned(at, orbits, Resonance(6, "lag 2", 0.35, 1.0))
     assert place == pytest.approx(0.36, abs=1e-6)
     assert [one.amplitude for one in near] == asked[5:]
     closest = sorted([0.3, 0.4, *asked[5:]], key=lambda a: abs(a - 0.36))
@@ -112,15 +119,15 @@ def test_a_resonance_is_pinned_down_between_two_orbits(background):
     assert abs(above - below) < 5e-3
     assert all(0.3 < a < 0.4 for a in asked[5:])
     # What is beyond the orbits, or has no pole between them, stays where it is.
-    assert pinned(at, orbits, Resonance(6, 2, 0.1, 1.0)) == ([], 0.1)
-    assert pinned(at, orbits, Resonance(6, 2, 0.6, 1.0)) == ([], 0.6)
-    assert pinned(at, orbits, Resonance(6, 2, 0.45, 1.0)) == ([], 0.45)
-    assert pinned(at, orbits, Resonance(9, 2, 0.35, 1.0)) == ([], 0.35)
+    assert pinned(at, orbits, Resonance(6, "lag 2", 0.1, 1.0)) == ([], 0.1)
+    assert pinned(at, orbits, Resonance(6, "lag 2", 0.6, 1.0)) == ([], 0.6)
+    assert pinned(at, orbits, Resonance(6, "lag 2", 0.45, 1.0)) == ([], 0.45)
+    assert pinned(at, orbits, Resonance(9, "lag 2", 0.35, 1.0)) == ([], 0.35)
 
     def nowhere(a):
         raise NoOrbitError("none")
 
-    assert pinned(nowhere, orbits, Resonance(6, 2, 0.35, 1.0))[0] == []
+    assert pinned(nowhere, orbits, Resonance(6, "lag 2", 0.35, 1.0))[0] == []
 
 
 def test_a_harmonic_stands_out_that_is_larger_than_the_one_before_and_near_a_mode():
@@ -140,9 +147,9 @@ def test_a_harmonic_stands_out_that_is_larger_than_the_one_before_and_near_a_mod
 def test_the_nearest_resonance_is_told_with_its_distance():
     """5.66 and 17.22: of 6 and 17 the higher is nearer, 1.3 %, but less felt."""
     said = nearest_resonance(of(), along([0.05, 0.1, 0.15, 0.2]))
-    assert "harmonic 6 is 6.0 % from mode 2" in said
+    assert "harmonic 6 is 6.0 % from lag 2" in said
     said = nearest_resonance(of(), along([0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.33]))
-    assert "harmonic 6 is 1.1 % from mode 2" in said
+    assert "harmonic 6 is 1.1 % from lag 2" in said
 
 
 def test_a_warning_names_the_harmonic_and_its_distance_once():
@@ -153,8 +160,8 @@ def test_a_warning_names_the_harmonic_and_its_distance_once():
         warn_of_resonances(of(modes), orbits)
     (said,) = [str(one.message) for one in told]
     drive = f"{18 * orbits[1].frequency:.4f} rad/s"
-    assert f"from a = 0.34 on, harmonic 6 of the orbit of mode 1 ({drive})" in said
-    assert "is 0.6 % from mode 2" in said  # 0.0376 of 6
+    assert f"from a = 0.34 on, harmonic 6 of the orbit of lag 1 ({drive})" in said
+    assert "is 0.6 % from lag 2" in said  # 0.0376 of 6
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warn_of_resonances(of(modes), along([0.1, 0.2]))  # 5.54 and 5.66: 0.3 of a turn
@@ -164,14 +171,14 @@ def test_a_warning_names_the_harmonic_and_its_distance_once():
 def test_the_nearest_resonance_is_that_of_the_last_orbit():
     """At a = 0.65 ratios are 7.19 and 16.455, from 6.31 and 16.895 before."""
     said = nearest_resonance(of(), along([0.05, 0.25, 0.45, 0.65]))
-    assert "harmonic 7 is 2.6 % from mode 2" in said
+    assert "harmonic 7 is 2.6 % from lag 2" in said
 
 
 def test_a_tongue_is_not_entered_where_another_felt_resonance_is_nearer(monkeypatch):
     """Two orbits give the direction, but not across another pole."""
     asked = []
     monkeypatch.setattr(branches, "_followed", lambda *sides: asked.append(sides[:2]) or "piece")
-    main, own = along([0.3, 0.34, 0.38, 0.42]), Resonance(6, 2, 0.36, 1.0)
+    main, own = along([0.3, 0.34, 0.38, 0.42]), Resonance(6, "lag 2", 0.36, 1.0)
     for other, below, beyond in (
         (Resonance(2, 3, 0.32, 1.0), None, "piece"),
         (Resonance(2, 3, 0.40, 1.0), "piece", None),
@@ -182,4 +189,4 @@ def test_a_tongue_is_not_entered_where_another_felt_resonance_is_nearer(monkeypa
     assert asked[-2:] == [(main[0], main[1]), (main[3], main[2])]
     # No harmonic that is felt, or no two orbits on its side, no tongue.
     assert branches._tongue(main, [own], Resonance(5, 3, 0.36, 1.0), True) is None
-    assert branches._tongue(main, [own], Resonance(6, 2, 0.32, 1.0), True) is None
+    assert branches._tongue(main, [own], Resonance(6, "lag 2", 0.32, 1.0), True) is None

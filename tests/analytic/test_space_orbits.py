@@ -38,7 +38,7 @@ def twisted(degrees):
 )
 def test_the_softening_of_flap_in_space(twist, omega, linear, softening):
     """By another code; between the two speeds is the pole where lag is twice flap."""
-    found = periodic_orbits(twisted(twist), omega, [0.05], gauge="flap", theory=SOLID)
+    found = periodic_orbits(twisted(twist), omega, [0.05], mode="flap 1", theory=SOLID)
     assert found.omega_n == pytest.approx(linear, abs=6e-10)
     # Half of the sixth decimal, and a bound of 1e-7.
     assert found.lambda_omega == pytest.approx(softening, abs=6e-7)
@@ -58,7 +58,8 @@ def test_the_softening_of_flap_in_space(twist, omega, linear, softening):
 def test_orbits_grow_out_of_free_vibration_with_the_tip_in_the_sine(blade, gauge, reversible):
     """K + iΩC - Ω²M of each shape, and its gauge sin φ; as far as modes are resolved, all."""
     begun = space_rotation(blade, 1.5, space_continuum(blade, SOLID, 6))
-    steady, frequencies, shapes = orbit_modes(begun, 1, gauge)
+    steady, frequencies, shapes, names = orbit_modes(begun, gauge)
+    assert names[:2] == ("flap 1", "lag 1")
     assert (steady.odd is not None) == reversible
     if reversible:
         shapes = np.where(steady.odd, -1j, 1.0) * shapes
@@ -73,7 +74,7 @@ def test_orbits_grow_out_of_free_vibration_with_the_tip_in_the_sine(blade, gauge
 def test_the_softening_of_a_coned_blade_by_half_of_the_swing():
     """Its orbits have no symmetry in flap: full Fourier series, one side larger."""
     blade = BLADE.with_precone(math.radians(5.0))
-    found = periodic_orbits(blade, 1.0, [0.05], gauge="flap", theory=SOLID)
+    found = periodic_orbits(blade, 1.0, [0.05], mode="flap 1", theory=SOLID)
     assert found.omega_n == pytest.approx(1.394894932, abs=6e-10)
     assert found.lambda_omega == pytest.approx(0.371589, abs=6e-7)
     assert found.jacobi_drift.max() < 1e-10
@@ -83,7 +84,7 @@ def test_frequencies_of_a_twisted_and_coned_blade():
     """Known over the peak to one side; nothing reverses time, and a full series is needed."""
     blade = BLADE.with_twist(math.radians(30.0)).with_precone(math.radians(2.5))
     known = {0.1: 0.99551456}
-    of = backbone(blade, 1.0, theory=SOLID, gauge="flap")
+    of = backbone(blade, 1.0, theory=SOLID, mode="flap 1")
     peaks, asked = np.array(list(known)), np.array(list(known))
     for _ in range(3):
         orbits = of.orbits(asked)
@@ -100,7 +101,7 @@ def test_frequencies_of_a_twisted_and_coned_blade():
 def test_frequencies_over_the_amplitude():
     """The known ones have the gauge a quarter of a period after zero, just below the peak."""
     known = {0.05: 1.00062592, 0.15: 1.00512648}
-    of, asked = backbone(twisted(30.0), 2.0, theory=SOLID, gauge="flap"), np.array(list(known))
+    of, asked = backbone(twisted(30.0), 2.0, theory=SOLID, mode="flap 1"), np.array(list(known))
     for _ in range(2):
         orbits = of.orbits(asked)
         quarter = [one.gauge(np.array([0.5 * np.pi]))[0] for one in orbits.nondimensional]
@@ -110,7 +111,7 @@ def test_frequencies_over_the_amplitude():
 
 
 def test_an_orbit_keeps_its_integral_and_is_followed_by_its_own_tip():
-    orbits = periodic_orbits(twisted(30.0), 1.0, [0.1], theory=SOLID)
+    orbits = periodic_orbits(twisted(30.0), 1.0, [0.1], mode="flap 1", theory=SOLID)
     assert orbits.jacobi_drift.max() < 1e-10
     phase = np.linspace(0.0, 2.0 * np.pi, 400)
     tip = orbits.tip(0, phase)
@@ -123,7 +124,7 @@ def test_an_orbit_keeps_its_integral_and_is_followed_by_its_own_tip():
 def test_twist_without_inertia_makes_no_orbit_unstable():
     """Its frequency, infinite as the blade gets straight, is beyond the steps of any method."""
     flat = Theory(extension=False, trapeze=False)
-    found = periodic_orbits(twisted(30.0), 2.0, [0.1], theory=flat)
+    found = periodic_orbits(twisted(30.0), 2.0, [0.1], mode="flap 1", theory=flat)
     assert found.stable.all()
     assert np.abs(found.multipliers[0, :6]) == pytest.approx(np.ones(6), abs=1e-6)
 
@@ -131,19 +132,16 @@ def test_twist_without_inertia_makes_no_orbit_unstable():
 def test_a_blade_that_is_hardly_twisted_has_the_orbits_of_the_plane():
     flat = Theory(trapeze=False)
     planar = periodic_orbits(BLADE, 2.0, [0.1, 0.2], theory=flat)
-    mode = (
-        int(np.argmax(linear_modes(BLADE.with_twist(1e-9), 2.0, 2, theory=flat).shares[:, 1])) + 1
-    )
-    space = periodic_orbits(BLADE.with_twist(1e-9), 2.0, [0.1, 0.2], mode, theory=flat)
+    space = periodic_orbits(BLADE.with_twist(1e-9), 2.0, [0.1, 0.2], theory=flat)
     assert space.frequency == pytest.approx(planar.frequency, rel=1e-9)
     assert space.lambda_omega == pytest.approx(planar.lambda_omega, abs=1e-8)
 
 
 def test_at_rest_a_quarter_turn_of_the_blade_turns_flap_into_lag():
     """Nothing but the rotation tells one direction from another; both meet round-off."""
-    flat = periodic_orbits(twisted(20.0), 0.0, [0.2], gauge="flap", theory=SOLID)
+    flat = periodic_orbits(twisted(20.0), 0.0, [0.2], mode="flap 1", theory=SOLID)
     upright = BLADE.with_setting_angle(math.pi / 2.0).with_twist(math.radians(20.0))
-    turned = periodic_orbits(upright, 0.0, [0.2], gauge="lag", theory=SOLID)
+    turned = periodic_orbits(upright, 0.0, [0.2], mode="lag 1", theory=SOLID)
     assert turned.frequency == pytest.approx(flat.frequency, rel=1e-10)
     assert turned.lag == pytest.approx(flat.flap, rel=1e-9)
     assert turned.flap == pytest.approx(flat.lag, rel=1e-6)
@@ -157,7 +155,7 @@ def test_a_family_that_an_internal_resonance_ends_is_refused(away, monkeypatch):
     flap, lag = linear_modes(twisted(30.0), at, 2, theory=SOLID).frequencies
     assert lag / flap == pytest.approx(2.0, abs=1.5 * away)
     with pytest.raises(AmplitudeNotReachedError, match="2 or 3 times its frequency may be that of"):
-        periodic_orbits(twisted(30.0), at, [0.05], gauge="flap", theory=SOLID)
+        periodic_orbits(twisted(30.0), at, [0.05], mode="flap 1", theory=SOLID)
 
 
 @pytest.mark.parametrize(
@@ -185,7 +183,7 @@ def test_orbits_of_a_blade_that_neither_twists_nor_stretches(omega, multiplier):
     """All coordinates are odd. Another code gives the edges where the period of lag doubles."""
     thin = unit_beam(1e-4).with_section_out_of_plane(0.01, math.inf).with_twist(1e-7)
     theory = Theory(extension=False, trapeze=False)
-    found = periodic_orbits(thin, omega, [0.2], mode=2, gauge="lag", theory=theory)
+    found = periodic_orbits(thin, omega, [0.2], mode="lag 1", theory=theory)
     assert found.stable[0] == (multiplier is None)
     if multiplier is not None:  # near the edge it goes with the root of the distance
         assert found.multipliers[0].real.min() == pytest.approx(multiplier, abs=3e-3)

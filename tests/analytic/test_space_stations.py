@@ -322,7 +322,7 @@ def test_frequencies_of_a_table_with_kinks_settle():
 @pytest.mark.slow
 def test_orbits_of_a_table_with_kinks_are_reached():
     """Kinks leave a residual of 2e-4 and no change of the frequency."""
-    orbits = periodic_orbits(large(), 1.267, [0.01], gauge="flap")
+    orbits = periodic_orbits(large(), 1.267, [0.01], mode="flap 1")
     assert orbits.frequency_error[0] < 1e-8
     softening = (1.0 - orbits.frequency[0] / orbits.omega_n) / 0.01**2
     assert softening == pytest.approx(orbits.lambda_omega, rel=1e-2)  # 7e-8 of the frequency

@@ -15,8 +15,8 @@ from analytic import (
     Section,
     SpinUp,
     Tube,
-    campbell,
     linear_modes,
+    periodic_orbits,
     planar_stability,
     spin_up_response,
     stability_limit,
@@ -244,7 +244,10 @@ ROUND = Tube()
     [
         (lambda: planar_stability(UNIT, 1.0, 0.1), "is unknown: give its section by"),
         (lambda: stability_limit(UNIT, 1.0), "is unknown: give its section by"),
-        (lambda: linear_modes(UNIT, 1.0, plane="flap"), "is unknown: give its section by"),
+        (
+            lambda: linear_modes(UNIT, 1.0, only="flap"),
+            "has 0 flap modes: .* known out of the plane",
+        ),
         (
             lambda: planar_stability(UNIT.with_section_out_of_plane(0.5), 1.0, 0.1),
             "torsional stiffness decides .* math.inf",
@@ -262,20 +265,25 @@ ROUND = Tube()
         (lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, largest=1.0), "below 1"),
         (
             lambda: linear_modes(
-                UNIT.with_section_out_of_plane(1.0, math.inf), 1.0, plane="torsion"
+                UNIT.with_section_out_of_plane(1.0, math.inf), 1.0, only="torsion"
             ),
             "torsion has no modes where torsion_ratio is unknown or infinite",
         ),
         (
-            lambda: linear_modes(told(UNIT, 0.0, 1.0, 0.5), 1.0, plane="torsion"),
-            "torsion has no modes without inertia of the slices",
+            lambda: linear_modes(told(UNIT, 0.0, 1.0, 0.5), 1.0, only="torsion"),
+            "has 0 torsion modes: .* no motion without stiffness or inertia has",
         ),
         (
             lambda: planar_stability(UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02),
             "in the flap frequencies at w_bar = 100; rotate slower",
         ),
-        (lambda: linear_modes(UNIT, 1.0, plane="pitch"), "plane must be 'lag', 'flap' or"),
-        (lambda: campbell(UNIT, [1.0], planes=()), "name families once each"),
+        (
+            lambda: linear_modes(UNIT, 1.0, only="pitch"),
+            "only must be one of flap, lag, torsion, axial, got 'pitch'",
+        ),
+        (lambda: periodic_orbits(UNIT, 1.0, 0.1, "lead 1"), "mode must be a name, 'lag 1' say"),
+        (lambda: periodic_orbits(UNIT, 1.0, 0.1, "flap 1"), "no mode 'flap 1': its lowest are lag"),
+        (lambda: periodic_orbits(UNIT, 1.0, 0.1, "axial 1"), "take a mode of lag or flap"),
     ],
 )
 def test_what_is_refused(ask, sentence):
@@ -285,8 +293,8 @@ def test_what_is_refused(ask, sentence):
 
 def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
-    with pytest.raises(AmplitudeNotReachedError, match="no orbit of mode 3"):
-        planar_stability(beam.with_shape(Rectangle()), 4.0, 0.2, mode=3)
+    with pytest.raises(AmplitudeNotReachedError, match="no orbit of lag 3"):
+        planar_stability(beam.with_shape(Rectangle()), 4.0, 0.2, mode="lag 3")
 
 
 TAPERED = Blade(
@@ -309,5 +317,5 @@ def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam, inertia):
     assert len(names) == len(rows) == frequencies.size == 54
     of = dict(zip(names, frequencies * blade.frequency_scale, strict=True))
     for plane in ("flap", "torsion"):
-        known = linear_modes(blade, 4.0, 2, plane=plane).frequencies
+        known = linear_modes(blade, 4.0, 2, only=plane).frequencies
         assert [of[f"{plane} 1"], of[f"{plane} 2"]] == pytest.approx(known, rel=1e-8)

@@ -104,11 +104,11 @@ def test_the_exact_backbone_of_a_higher_mode_comes_alone(call, monkeypatch):
     arguments = ("backbone", "--omega", "6", "--mode", "2", "--amplitude", "0.02", "0.2")
     code, out, error = call(*arguments, "--format", "csv")
     near, far = csv.DictReader(io.StringIO(out))
-    truth = periodic_orbits(Beam.reference(), 6.0, [0.02], mode=2)
+    truth = periodic_orbits(Beam.reference(), 6.0, [0.02], mode="lag 2")
     assert float(near["exact beam [rad/s]"]) == pytest.approx(truth.frequency[0], rel=1e-9)
     assert far["exact beam [rad/s]"] == "nan"
     assert code == 1
-    assert "no orbit of mode 2 at omega = 6 rad/s with a peak |q|/L of 0.2" in error
+    assert "no orbit of lag 2 at omega = 6 rad/s with a peak |q|/L of 0.2" in error
 
 
 def test_tables_are_printed_with_their_notes(call, monkeypatch):

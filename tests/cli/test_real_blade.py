@@ -49,7 +49,7 @@ def test_a_twisted_blade_that_is_not_set_has_a_campbell_diagram_and_a_backbone(c
     )
     code, out, error = call("campbell", "--points", "2", "--orders", "1", "--config", file)
     assert code == 0, error
-    assert "mode 3" in out
+    assert "flap 2" in out
     # Alone, for the models are of the plane.
     code, out, error = call(
         "backbone", "--omega", "2", "--exact", "--amplitude", "0.1", "--config", file

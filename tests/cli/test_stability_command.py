@@ -48,7 +48,7 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
     assert "sum resonance" in row
     told = [line for line in out.splitlines() if line.startswith("written ")]
     assert sorted(told) == sorted(f"written {path}" for path in tmp_path.iterdir())
-    name = "stability-rectangle-3-omega-2-mode-1"
+    name = "stability-rectangle-3-omega-2-lag-1"
     kinds = ("nc", "csv", "json", "png", "pdf")
     assert {path.name for path in tmp_path.iterdir()} == {f"{name}.{kind}" for kind in kinds}
     data = load(tmp_path / f"{name}.nc")
@@ -81,7 +81,7 @@ def test_damping_makes_the_growth_slower(call, tmp_path, beam, monkeypatch):
     assert code == 0
     sentence = "by 0.005 of the critical, are unstable out of the plane for a between 0.0402"
     assert sentence in " ".join(out.split())
-    data = load(tmp_path / "stability-rectangle-omega-2-mode-1.nc")
+    data = load(tmp_path / "stability-rectangle-omega-2-lag-1.nc")
     free = planar_stability(beam.with_shape(Rectangle()), 2.0, [0.045]).growth_rate[0]
     assert 0.0 < data["growth_rate"].item() < free
     # Without damping it is another result.
@@ -98,7 +98,7 @@ def test_a_section_out_of_a_file(call, reached, tmp_path):
     code, out, _ = call(*command, "--out", tmp_path)
     assert code == 0
     assert "stay in their plane, up to a = 0.02." in out
-    growth = load(tmp_path / "stability-given-omega-2-mode-1.nc")["growth_rate"].to_numpy()
+    growth = load(tmp_path / "stability-given-omega-2-lag-1.nc")["growth_rate"].to_numpy()
     assert np.array_equal(growth, [0.0])
 
     # What it found is no input: the same may be asked again, and is computed.

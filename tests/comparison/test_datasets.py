@@ -34,8 +34,8 @@ def spun(blade):
 def limit():
     tongue = Tongue(low=0.1, high=0.2, growth=1e-3, kind="divergence", modes=("flap 1",))
     return StabilityLimit(
-        blade=STRIP, omega=6.0, mode=1, damping=0.0, theory=Theory(), growth=1e-2, amplitude=np.inf,
-        searched=0.3, kind="", modes=(), tongues=(tongue,), converged=True,
+        blade=STRIP, omega=6.0, mode="lag 1", damping=0.0, theory=Theory(), growth=1e-2,
+        amplitude=np.inf, searched=0.3, kind="", modes=(), tongues=(tongue,), converged=True,
     )  # fmt: skip
 
 

@@ -20,8 +20,8 @@ def test_growth_over_the_amplitude(beam):
     # No line joins orbits between which others may stay.
     assert all(line.get_linestyle() == "None" for line in axes.lines)
     limit = StabilityLimit(
-        blade=blade, omega=2.0, mode=1, damping=0.0, theory=Theory(), growth=0.01, amplitude=0.28,
-        searched=0.3, kind="", modes=(), tongues=(), converged=True,
+        blade=blade, omega=2.0, mode="lag 1", damping=0.0, theory=Theory(), growth=0.01,
+        amplitude=0.28, searched=0.3, kind="", modes=(), tongues=(), converged=True,
     )  # fmt: skip
     (line,) = figures.planar_stability(dataset_of(found, limit)).lines[-1:]
     assert line.get_label() == "limit, a = 0.28"

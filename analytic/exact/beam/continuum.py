@@ -25,6 +25,7 @@ acceleration; the viscosity of the blade, η_b and η_a, is a diagonal; shear ha
 
 from __future__ import annotations
 
+import math
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -281,15 +282,18 @@ class Continuum(Kinematics):
         rotary = np.sum(spin * (spin @ self._rotary_mass), axis=-1)
         return np.asarray(0.5 * (self._squared(self.slope_rate(q, q_dot)) + rotary))
 
-    def shares(self, q: FloatArray, shapes: FloatArray, setting: float) -> FloatArray:
-        """Return the shares of flap, lag and torsion in their kinetic energy, (count, 3)."""
-        slope, spin = self.slope_rate(q, shapes), shapes[:, : self.bending]
-        across = self._squared(slope - slope.real) / (
-            self._squared(slope) + np.sum(spin * (spin @ self._rotary_mass), axis=1)
-        )
-        return np.outer(across, [np.sin(setting) ** 2, np.cos(setting) ** 2, 0.0])
+    def shares(self, q: FloatArray, shapes: ComplexArray, setting: float) -> FloatArray:
+        """Return the shares of flap, lag, torsion and axial motion in their kinetic energy."""
+        along, across = np.zeros((2, len(shapes)))
+        for part in (shapes.real, shapes.imag):
+            slope, spin = self.slope_rate(q, part), part[:, : self.bending]
+            along += self._squared(slope.real)
+            across += self._squared(slope.imag) + np.sum(spin * (spin @ self._rotary_mass), axis=1)
+        flap, lag = math.sin(setting) ** 2 * across, math.cos(setting) ** 2 * across
+        energies = np.stack((flap, lag, np.zeros_like(flap), along), axis=-1)
+        return np.asarray(energies / energies.sum(axis=1, keepdims=True))
 
-    def _squared(self, slope: ComplexArray) -> FloatArray:
+    def _squared(self, slope: FloatArray | ComplexArray) -> FloatArray:
         squared: FloatArray = np.sum((slope.conj() * (slope @ self._green)).real, axis=-1)
         return squared
 

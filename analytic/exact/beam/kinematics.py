@@ -145,11 +145,13 @@ class Kinematics:
         return self.tip(q).imag, self.tip_rate(q, q_dot).imag
 
     def moved(
-        self, q: FloatArray, shapes: FloatArray, x: FloatArray, setting: float
-    ) -> tuple[FloatArray, FloatArray]:
+        self, q: FloatArray, shapes: ComplexArray, x: FloatArray, setting: float
+    ) -> tuple[ComplexArray, ComplexArray]:
         """Return how small changes (count, n) move points, (3, points, count), and twist them."""
-        z = self.integrated(self.slope_rate(q, shapes), x).T
-        return np.tensordot(set_at(setting)[:, :2], (z.real, z.imag), 1), np.zeros(z.shape)
+        parts = [self.integrated(self.slope_rate(q, one), x) for one in (shapes.real, shapes.imag)]
+        plane = np.array([[z.real, z.imag] for z in np.swapaxes(parts, 1, 2)])
+        moved = np.tensordot(set_at(setting)[:, :2], plane[0] + 1j * plane[1], 1)
+        return moved, np.zeros_like(moved[0])
 
     def tip(self, q: FloatArray) -> ComplexArray:
         """Return the tip's position z(1), (samples,)."""

@@ -20,7 +20,7 @@ from ...threads import one_thread
 from ..beam.continuum import Continuum
 from ..beam.state import Driven
 from ..beam.steady import MOST_FUNCTIONS, Discretized, SteadyBeam, resolved_model, steady_rotation
-from ..linear.modes import linear_modes
+from ..linear.modes import driven_modes
 from ..space.continuum import SpaceContinuum
 from ..space.modes import DIRECTIONS, require_gauge
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
@@ -251,7 +251,7 @@ def _require_no_resonance(
     )
     if omega is None:
         slow, fast = (
-            math.floor(linear_modes(beam, w, 1, theory=theory).frequencies[0] / w)
+            math.floor(driven_modes(beam, w, theory=theory).frequencies[0] / w)
             for w in asked[[0, -1]].tolist()
         )
         if slow > fast:
@@ -259,10 +259,11 @@ def _require_no_resonance(
                 f"{no_end} the first mode meets {slow} times the speed in between: {remedy}"
             )
         return
-    for mode, frequency in enumerate(linear_modes(beam, omega, theory=theory).frequencies, start=1):
+    modes = driven_modes(beam, omega, 3, theory=theory)
+    for name, frequency in zip(modes.names, modes.frequencies, strict=True):
         if asked[0] <= frequency <= asked[-1]:
             raise ValueError(
-                f"{no_end} mode {mode} is at {frequency:.6g} rad/s: {remedy}, or periodic_orbits "
+                f"{no_end} {name} is at {frequency:.6g} rad/s: {remedy}, or periodic_orbits "
                 "for the backbone on which it ends"
             )
 

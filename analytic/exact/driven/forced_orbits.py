@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_out_of_plane, undamped
+from ...beam import require_out_of_plane, undamped
 from ...input_checks import finite_array, finite_number, not_negative
 from ...loads import Load
 from ...plotting import axes_or_new, draw_response
@@ -17,7 +17,6 @@ from ...threads import one_thread
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpecialPoint
 from ..plane.planarity import GrowthOutOfPlane, grown_about
-from ..space.modes import space_modes
 
 if TYPE_CHECKING:
     from ...plotting import Axes
@@ -143,20 +142,18 @@ class ForcedResponse(Branch):
                 "backbone: take periodic_orbits at one of them"
             )
         blade, omega = undamped(self.beam), float(self.omega[0])
-        return backbone(blade, omega, theory=self.theory, **self._leans_on(blade, omega))
+        return backbone(blade, omega, theory=self.theory, **self._leans_on())
 
     @property
     def gauge(self) -> Literal["lag", "flap"]:
         """Place of the tip whose greatest deflection is the amplitude."""
         return "flap" if self.nondimensional[0].system.steady.direction[2] else "lag"
 
-    def _leans_on(self, blade: AnyBlade, omega: float) -> dict[str, Any]:
+    def _leans_on(self) -> dict[str, Any]:
         """Return the mode and the gauge of the backbone."""
         if not self.nondimensional[0].system.model.in_space:
             return {}
-        flap, lag, _ = space_modes(blade, omega, _LOOKED_AT, self.theory).shares.T
-        more = flap > lag if self.gauge == "flap" else lag > flap
-        return {"mode": int(np.argmax(more)) + 1, "gauge": self.gauge}
+        return {"mode": f"{self.gauge} 1"}
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
@@ -13,7 +13,8 @@ from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.steady import resolved_model
-from ..space.modes import orbit_modes, require_gauge
+from ..linear.modes import mode_name
+from ..space.modes import DIRECTIONS, orbit_modes
 from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
@@ -65,8 +66,8 @@ class Backbone(ModePath):
         >>> from analytic import Beam, Theory, backbone
         >>> of = backbone(Beam.reference(), omega=4.0, theory=Theory(extension=False))
         >>> for one in of.branch(up_to=0.15).resonances:
-        ...     print(f"harmonic {one.harmonic} meets mode {one.mode} at a = {one.amplitude:.4f}")
-        harmonic 16 meets mode 3 at a = 0.1269
+        ...     print(f"harmonic {one.harmonic} meets {one.mode} at a = {one.amplitude:.4f}")
+        harmonic 16 meets lag 3 at a = 0.1269
         """
         return followed_branch(self, peak_deflection("up_to", up_to))
 
@@ -120,11 +121,11 @@ class SpaceBackbone(Backbone):
 
     Attributes
     ----------
-    gauge : {"lag", "flap"} or None
-        Place of the tip whose peak is the amplitude; None for the larger of both in the mode.
+    gauge : {"lag", "flap"}
+        Place of the tip whose peak is the amplitude.
     """
 
-    gauge: Literal["lag", "flap"] | None = None
+    gauge: str
 
     at_resonance: ClassVar[str] = "several orbits may have one amplitude there"
 
@@ -155,18 +156,17 @@ class SpaceBackbone(Backbone):
     def _rotation(self) -> SpaceBlade:
         return space_rotation(self.beam, self.omega, self.model)
 
-    def _solved(self, steady: SpaceBlade) -> tuple[SpaceBlade, FloatArray, Any]:
-        return orbit_modes(steady, self.mode, self.gauge)
+    def _solved(self, steady: SpaceBlade) -> tuple[SpaceBlade, FloatArray, Any, tuple[str, ...]]:
+        return orbit_modes(steady, self.gauge)
 
 
 def backbone(
     beam: AnyBlade,
     omega: float,
-    mode: int = 1,
+    mode: str | int = "lag 1",
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
-    gauge: Literal["lag", "flap"] | None = None,
 ) -> Backbone:
     """Return the backbone of a mode: its orbits, their curve, and what branches off.
 
@@ -176,16 +176,15 @@ def backbone(
         Without damping.
     omega : float
         Rotation speed ω [rad/s].
-    mode : int
-        In-plane mode from which the orbits grow, from 1.
+    mode : str or int
+        Mode from which the orbits grow, by its name in `linear_modes`, or by its number there,
+        from 1. The amplitude is the peak of the tip in its family, lag or flap. Modes of torsion
+        and of axial motion do not move the tip across: they are refused.
     theory : Theory
         Extension, shear and rotary inertia.
     functions : int
         Least number of functions for the tangent's angle, half as many for each curvature in
         space; they grow where an orbit needs more.
-    gauge : {"lag", "flap"}, optional
-        Place of the tip whose peak is the amplitude, of a blade in space: by default that of which
-        the mode has more. "flap" takes a planar blade into space, if its section is known.
 
     Raises
     ------
@@ -201,31 +200,36 @@ def backbone(
     >>> print(f"λ_ω = {of.curve(up_to=0.4).lambda_omega:.5f}")
     λ_ω = 0.01967
     """
-    omega, mode = rotation_speed(omega), whole_number("mode", mode)
+    omega = rotation_speed(omega)
     warn_if_rpm(beam, omega)
-    if gauge is not None:
-        require_gauge(gauge)
-    if lives_in_space(beam) or gauge == "flap":
-        require_undamped(beam, _NO_FREE_ORBITS, planar=False)
-        in_space = space_continuum(beam, theory, max(functions // 2, 2 * mode + 2))
+    require_undamped(beam, _NO_FREE_ORBITS, planar=False)
+    name = mode_name(beam, omega, mode, theory)
+    family, number = name.split()
+    if family not in DIRECTIONS:
+        raise ValueError(
+            f"the amplitude of orbits is how far the tip moves across, and mode is {name!r}: take "
+            "a mode of lag or flap"
+        )
+    out_of_plane = family == "flap" and beam.blade.section.knows_space
+    if lives_in_space(beam) or out_of_plane:
+        in_space = space_continuum(beam, theory, max(functions // 2, 2 * int(number) + 2))
         return SpaceBackbone(
-            beam=beam, omega=omega, mode=mode, theory=theory, model=in_space, gauge=gauge,
-            care=Care(tail=in_space.functions.blade.tail),
+            beam=beam, omega=omega, mode=name, theory=theory, model=in_space,
+            gauge=family, care=Care(tail=in_space.functions.blade.tail),
         )  # fmt: skip
     require_undamped(beam, _NO_FREE_ORBITS)
-    model = resolved_model(beam, mode, theory, functions)
-    return Backbone(beam=beam, omega=omega, mode=mode, theory=theory, model=model)
+    model = resolved_model(beam, int(number), theory, functions)
+    return Backbone(beam=beam, omega=omega, mode=name, theory=theory, model=model)
 
 
 def periodic_orbits(
     beam: AnyBlade,
     omega: float,
     amplitudes: float | Sequence[float] | FloatArray,
-    mode: int = 1,
+    mode: str | int = "lag 1",
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 16,
-    gauge: Literal["lag", "flap"] | None = None,
 ) -> Orbits:
     """Return the periodic orbits of the exact beam that grow out of one mode.
 
@@ -238,7 +242,7 @@ def periodic_orbits(
 
     Parameters
     ----------
-    beam, omega, mode, theory, functions, gauge
+    beam, omega, mode, theory, functions
         As for `backbone`.
     amplitudes : float or sequence of float
         Peak tip deflections |q|/L, above 0 and below 1, in any order.
@@ -264,7 +268,7 @@ def periodic_orbits(
     >>> print(f"ω_NL = {found.omega_n:.5f} (1 - {found.lambda_omega:.4f} a²) rad/s as a → 0")
     ω_NL = 3.73040 (1 - 0.0197 a²) rad/s as a → 0
     """
-    of = backbone(beam, omega, mode, theory=theory, functions=functions, gauge=gauge)
+    of = backbone(beam, omega, mode, theory=theory, functions=functions)
     return of.orbits(amplitudes)
 
 
@@ -272,7 +276,7 @@ def backbone_curve(
     beam: AnyBlade,
     omega: float,
     up_to: float = 0.6,
-    mode: int = 1,
+    mode: str | int = "lag 1",
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 16,

@@ -53,7 +53,7 @@ class BackboneBranch(Branch):
     """
 
     omega: float
-    mode: int
+    mode: str
     piece: NDArray[np.int_]
     resonances: tuple[Resonance, ...]
 
@@ -62,7 +62,7 @@ class BackboneBranch(Branch):
         turns = ", ".join(f"{fold.amplitude:.4f}" for fold in self.folds)
         main = self.amplitude[self.piece == 0]
         return (
-            f"Backbone of mode {self.mode} at {self.omega:g} rad/s up to a = {main.max():.4g}; "
+            f"Backbone of {self.mode} at {self.omega:g} rad/s up to a = {main.max():.4g}; "
             f"harmonic:mode in resonance: {met or 'none'}; "
             + (f"folds at a = {turns}" if turns else "no folds")
         )

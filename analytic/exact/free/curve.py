@@ -55,7 +55,7 @@ class BackboneCurve:
 
     beam: AnyBlade
     omega: float
-    mode: int
+    mode: str
     theory: Theory
     omega_n: float
     holds_up_to: float
@@ -101,7 +101,7 @@ class BackboneCurve:
 
     def __str__(self) -> str:
         return (
-            f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s up to a = "
+            f"Exact backbone of {self.mode} at {self.omega:g} rad/s up to a = "
             f"{self.holds_up_to:.4g}: ω_n = {self.omega_n:.8f} rad/s, λ_ω = "
             f"{self.lambda_omega:.6f}, κ = {self.kappa:.5f}, error {self.error:.0e}"
         )
@@ -165,7 +165,7 @@ def _fitted(of: ModePath, top: float) -> BackboneCurve:
     checked = np.sort(between[[count - 2, count // 2, 1]])
     # Laid in one row, so that a tangent serves its neighbours.
     asked = np.sort(np.concatenate((at[1:], checked)))
-    orbits, linear = [of.path.laid(a) for a in asked.tolist()], float(of.modes[of.mode - 1])
+    orbits, linear = [of.path.laid(a) for a in asked.tolist()], float(of.modes[of.place])
     found = np.array([[o.frequency / linear, o.gauge_sines[0] / o.amplitude] for o in orbits])
     made, shown = (found[np.isin(asked, which)] for which in (at, checked))
     values = np.vstack(([1.0, 1.0], made))

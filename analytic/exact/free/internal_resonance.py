@@ -36,8 +36,8 @@ class Resonance(NamedTuple):
     ----------
     harmonic : int
         Of the orbit.
-    mode : int
-        That it meets, from 1.
+    mode : str
+        Name of the mode that it meets.
     amplitude : float
         Peak |q|/L.
     frequency : float
@@ -45,32 +45,32 @@ class Resonance(NamedTuple):
     """
 
     harmonic: int
-    mode: int
+    mode: str
     amplitude: float
     frequency: float
 
 
-def frequency_ratios(of: ModePath, orbits: Sequence[BeamOrbit]) -> tuple[list[int], FloatArray]:
-    """Return the lowest other modes, from 1, and their ν_j/Ω (orbits, modes) about orbits.
+def frequency_ratios(of: ModePath, orbits: Sequence[BeamOrbit]) -> tuple[list[str], FloatArray]:
+    """Return the names of the lowest other modes, and their ν_j/Ω (orbits, modes) about orbits.
 
     They ascend along the path of a mode. Multipliers leave open how many turns a mode makes in a
     period; it is followed in the square of the amplitude.
     """
     others = _others(of)
     squares = np.array([0.0, *(orbit.amplitude**2 for orbit in orbits)])
-    ratios = [of.modes[others] / of.modes[of.mode - 1]]
+    ratios = [of.modes[others] / of.modes[of.place]]
     for i, orbit in enumerate(orbits, start=1):
         expected = ratios[-1]
         if i > 1:
             slope = (ratios[-1] - ratios[-2]) / (squares[i - 1] - squares[i - 2])
             expected = expected + slope * (squares[i] - squares[i - 1])
         ratios.append(_nearest(orbit, expected))
-    return [j + 1 for j in others], np.array(ratios[1:])
+    return [of.names[j] for j in others], np.array(ratios[1:])
 
 
 def _others(of: ModePath) -> list[int]:
     """Return the places of the lowest four other modes."""
-    return [j for j in range(min(5, of.modes.size)) if j != of.mode - 1]
+    return [j for j in range(min(5, of.modes.size)) if j != of.place]
 
 
 def _nearest(orbit: BeamOrbit, expected: FloatArray) -> FloatArray:
@@ -170,7 +170,7 @@ def nearest_resonance(of: ModePath, orbits: Sequence[BeamOrbit]) -> str:
     nearest = int(np.argmin(distance * ratios[-1] ** 2))
     return (
         f" (harmonic {round(float(ratios[-1, nearest]))} is {100.0 * distance[nearest]:.1f} % from "
-        f"mode {others[nearest]} there)"
+        f"{others[nearest]} there)"
     )
 
 
@@ -191,13 +191,13 @@ def warn_of_resonances(of: ModePath, orbits: Iterable[BeamOrbit]) -> None:
     suspects = [(orbit, ks) for orbit in orbits if (ks := outstanding(of, orbit))]
     # Multipliers cost more than an orbit does: of very many a few are looked at.
     looked = np.unique(np.linspace(0, len(suspects) - 1, _LOOKS).round().astype(int))
-    warned: set[tuple[int, int]] = set()
+    warned: set[tuple[int, str]] = set()
     for orbit, harmonics in [suspects[i] for i in looked.tolist()] if suspects else []:
         turns = _turns(orbit, len(others))
         for k in harmonics:
             # Of the modes whose linear frequency is not far, that whose multiplier is nearest 1.
             near = [
-                (float(t), j + 1)
+                (float(t), of.names[j])
                 for t, j in zip(turns, others, strict=True)
                 if abs(of.modes[j] / orbit.frequency / k - 1.0) < _PERHAPS and t < _NEAR
             ]
@@ -207,7 +207,7 @@ def warn_of_resonances(of: ModePath, orbits: Iterable[BeamOrbit]) -> None:
             warned.add((k, j))
             warn(
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
-                f"of mode {of.mode} ({k * orbit.frequency * of.beam.frequency_scale:.4f} rad/s) is "
-                f"{100.0 * distance / k:.1f} % from mode {j} (from Floquet exponents): "
+                f"of {of.mode} ({k * orbit.frequency * of.beam.frequency_scale:.4f} rad/s) is "
+                f"{100.0 * distance / k:.1f} % from {j} (from Floquet exponents): "
                 f"{of.at_resonance}"
             )

@@ -82,7 +82,7 @@ class LeavingBranch(Branch):
     """
 
     omega: float
-    mode: int
+    mode: str
     periods: int
     mirror: bool
     born: SpecialPoint

@@ -66,7 +66,7 @@ class Orbits(OrbitSet):
     """
 
     omega: float
-    mode: int
+    mode: str
     omega_n: float
     lambda_omega: float
     lambda_omega_error: float
@@ -104,7 +104,7 @@ class Orbits(OrbitSet):
             As for matplotlib's `Axes.plot`, such as color and label; a marker is the orbits'.
         """
         ax = axes_or_new(ax)
-        mode = "" if self.mode == 1 else f", mode {self.mode}"
+        mode = "" if self.mode == "lag 1" else f", {self.mode}"
         frequency = np.append(self.omega_n, self.frequency)
         amplitude = np.append(0.0, self.amplitude)
         marker = line.pop("marker", ".")
@@ -120,7 +120,7 @@ class Orbits(OrbitSet):
 
     def __str__(self) -> str:
         return (
-            f"Exact backbone of mode {self.mode} at {self.omega:g} rad/s: "
+            f"Exact backbone of {self.mode} at {self.omega:g} rad/s: "
             f"ω_n = {self.omega_n:.8f} rad/s, λ_ω = {self.lambda_omega:.6f}, "
             f"{self.amplitude.size} orbits up to a = {self.amplitude.max():g}, "
             f"which refinement changes by at most {self.frequency_error.max():.0e}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar
@@ -21,6 +22,7 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
 from ..beam.steady import SteadyBeam, solve_modes, steady_rotation
+from ..linear.modes import names_in_plane
 
 _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
 
@@ -33,6 +35,16 @@ class AmplitudeNotReachedError(RuntimeError):
         self.orbits = orbits
 
 
+def place_of(mode: str, names: Sequence[str]) -> int:
+    """Return the place of a mode among names, refusing one that is not there."""
+    if mode not in names:
+        raise ValueError(
+            f"this blade has no mode {mode!r}: its lowest are {', '.join(names[:6])}; flap and "
+            "torsion need a section that is known out of the plane, as blade.with_shape(...)"
+        )
+    return names.index(mode)
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ModePath:
     """Free orbits out of one mode, computed as far as they are needed; base of `Backbone`."""
@@ -41,7 +53,7 @@ class ModePath:
 
     beam: AnyBlade
     omega: float
-    mode: int = 1
+    mode: str = "lag 1"
     theory: Theory = BERNOULLI_EULER
     model: Any = field(repr=False)
     care: Care = field(default_factory=lambda: THOROUGH, repr=False)
@@ -49,12 +61,12 @@ class ModePath:
     @property
     def name(self) -> str:
         """Its name in a sentence."""
-        return f"mode {self.mode} at omega = {self.omega:g} rad/s"
+        return f"{self.mode} at omega = {self.omega:g} rad/s"
 
     @property
     def omega_n(self) -> float:
         """Linear frequency ω_n [rad/s]."""
-        return float(self.modes[self.mode - 1]) * self.beam.frequency_scale
+        return float(self.modes[self.place]) * self.beam.frequency_scale
 
     @property
     def modes(self) -> FloatArray:
@@ -62,18 +74,29 @@ class ModePath:
         return self._begun[0]
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """Names of these modes."""
+        return self._begun[1]
+
+    @property
+    def place(self) -> int:
+        """Place of the mode among them, from 0."""
+        return self.names.index(self.mode)
+
+    @property
     def path(self) -> Path[SteadyBeam]:
         """Orbits by their amplitude, computed as far as they are needed."""
-        return self._begun[1]
+        return self._begun[2]
 
     def _rotation(self) -> Any:
         """Return the system of the model."""
         return steady_rotation(self.beam, self.omega, self.model)
 
-    def _solved(self, steady: Any) -> tuple[Any, FloatArray, FloatArray]:
-        """Return the system, and frequencies and shapes (modes, n), odd ones in the sine."""
+    def _solved(self, steady: Any) -> tuple[Any, FloatArray, Any, tuple[str, ...]]:
+        """Return the system; frequencies, shapes with odd coordinates in the sine, and names."""
         modes = solve_modes(steady)
-        return steady, modes.frequencies, modes.coordinates
+        names = names_in_plane(steady, modes, self.beam.setting_angle)
+        return steady, modes.frequencies, modes.coordinates, names
 
     def softening(self) -> tuple[float, float]:
         """Return λ_ω, extrapolated from the two smallest orbits, and what that changed."""
@@ -81,17 +104,18 @@ class ModePath:
         return (4.0 * near - far) / 3.0, abs(near - far) / 3.0
 
     def _softenings(self, *orbits: Orbit[Any]) -> list[float]:
-        linear = float(self.modes[self.mode - 1])
+        linear = float(self.modes[self.place])
         return [float((1.0 - one.frequency / linear) / one.amplitude**2) for one in orbits]
 
     @cached_property
-    def _begun(self) -> tuple[FloatArray, Path[SteadyBeam]]:
+    def _begun(self) -> tuple[FloatArray, tuple[str, ...], Path[SteadyBeam]]:
         """The modes and the path, with as many functions as its smallest orbits need."""
-        steady = self._rotation()
-        small, near = 0.02 / self.mode**2, "2 or 3 times its frequency may be that of another mode"
+        steady, number = self._rotation(), int(self.mode.split()[1])
+        small, near = 0.02 / number**2, "2 or 3 times its frequency may be that of another mode"
         while True:
-            (steady, frequencies, shapes), tangent = self._solved(steady), LastTangent()
-            shape, linear = shapes[self.mode - 1], frequencies[self.mode - 1]
+            (steady, frequencies, shapes, names), tangent = self._solved(steady), LastTangent()
+            place = place_of(self.mode, names)
+            shape, linear = shapes[place], frequencies[place]
             try:
                 seed = solve(linear_orbit(steady, shape, float(linear), small), small, tangent)
                 double = solve(seed.scaled(2.0 * small), 2.0 * small, tangent)
@@ -103,7 +127,8 @@ class ModePath:
                         seed=seed, double=double, longest=_LONGEST_STEP,
                         care=self.care, tangent=tangent,
                     )  # fmt: skip
-                    return frequencies[: steady.functions // 2], path
+                    count = max(steady.functions // 2, place + 1)
+                    return frequencies[:count], names[:count], path
                 slow = double.truncation > 0.5 * double.residual
                 reason = (
                     f"{double.harmonics} harmonics leave a residual of {double.truncation:.1e}; "

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise, product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,16 +20,14 @@ from ...input_checks import finite_values, require_ascending, rotation_speed, wh
 from ...plotting import apart, axes_or_new, cycled, free_place
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..space.modes import LinearModes, space_modes_on
-from ..space.steady import lives_in_space
-from .modes import Plane, linear_modes, modes_on
+from ..space.modes import Family, LinearModes
+from .modes import linear_modes, modes_on
 
 if TYPE_CHECKING:
     from ...plotting import Axes
 
 _SOLVED, _DRAWN = 9, 61  # speeds of a picture's curves, besides their own: chords below a pixel
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
-_TURNED = 1e-12  # of cos ψ, which is no number of its own at a right angle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,23 +36,20 @@ class Crossing:
 
     Attributes
     ----------
-    mode : int
-        Mode, from 1, in the order of its family's frequencies at the lowest speed.
+    mode : str
+        Name of the mode, as of its column.
     order : int
         Engine order k.
     omega : float
         Speed [rad/s].
     frequency : float
         Frequency kω [rad/s].
-    plane : str
-        Its family: "lag", the blade's own plane of bending, "flap" or "torsion".
     """
 
-    mode: int
+    mode: str
     order: int
     omega: float
     frequency: float
-    plane: Plane = "lag"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,15 +62,14 @@ class Campbell:
     omegas : ndarray (speeds,)
         Rotation speeds [rad/s].
     frequencies : ndarray (speeds, count)
-        Frequencies in the rotating frame [rad/s], one column for each tracked mode, family by
-        family.
+        Frequencies in the rotating frame [rad/s], one column for each tracked mode.
     mac : ndarray (speeds - 1, count)
         Modal assurance criterion of each mode from one speed to the next; well below 1 the
         tracking is in doubt and the speeds are too far apart.
     crossings : tuple of Crossing
         Where frequencies cross the lines kω, k from 1, within the speeds.
-    planes : tuple of str
-        The family of each column.
+    names : tuple of str
+        The name of each column, "lag 1" say, by the shares of the mode at the lowest speed.
     theory : Theory
 
     Examples
@@ -93,29 +86,9 @@ class Campbell:
     frequencies: FloatArray
     mac: FloatArray
     crossings: tuple[Crossing, ...]
-    planes: tuple[Plane, ...]
+    names: tuple[str, ...]
     theory: Theory
-
-    @property
-    def names(self) -> list[str]:
-        """The name of each column: as "flap 1", or "mode 1 at 45°" of a blade set at an angle.
-
-        Set at a right angle the blade's own plane of bending is that of flap.
-        """
-        numbers = [self.planes[:k].count(plane) + 1 for k, plane in enumerate(self.planes)]
-        across = abs(self.beam.unit.setting)
-        if lives_in_space(self.beam):
-            return [f"mode {k}" for k in numbers]
-        if "lag" not in self.planes or across > 1.0 - _TURNED:
-            return [f"{plane} {k}" for plane, k in zip(self.planes, numbers, strict=True)]
-        if across < _TURNED:
-            return [f"flap {k}" for k in numbers]
-        angle = math.degrees(math.acos(across))
-        return [f"mode {k} at {angle:.4g}°" for k in numbers]
-
-    def name_of(self, crossing: Crossing) -> str:
-        """Return the name of the mode that crosses."""
-        return self.names[self.planes.index(crossing.plane) + crossing.mode - 1]
+    _only: Family | None = field(repr=False)
 
     @cached_property
     def _curves(self) -> tuple[FloatArray, FloatArray]:
@@ -125,8 +98,8 @@ class Campbell:
         speeds, frequencies = self.omegas, self.frequencies
         if apart_.any():
             speeds = np.sort(np.concatenate((speeds, even[apart_])))
-            counts = Counter(self.planes)
-            frequencies = _diagram(self.beam, speeds, counts, 0, self.theory).frequencies
+            more = _diagram(self.beam, speeds, len(self.names), 0, self._only, self.theory)
+            frequencies = more.frequencies
         drawn = np.union1d(np.linspace(speeds[0], speeds[-1], _DRAWN), speeds)
         # Squares of frequencies are nearly straight over those of the speed.
         squares = PchipInterpolator(speeds**2, frequencies**2)(drawn**2)
@@ -159,15 +132,14 @@ class Campbell:
                 at, min(order * at, top), f"{order}ω", color="0.45", fontsize="small",
                 ha="center" if above and order < last else "right", va="bottom", clip_on=False,
             )  # fmt: skip
-        families = list(dict.fromkeys(self.planes))
+        kinds = [name.split()[0] for name in self.names]
+        families = list(dict.fromkeys(kinds))
         heights = apart(curves[-1], 0.045 * top)
-        for plane, name, row, height in zip(
-            self.planes, self.names, curves.T, heights, strict=True
-        ):
+        for kind, name, row, height in zip(kinds, self.names, curves.T, heights, strict=True):
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
-            family = families.index(plane)
-            (line,) = ax.plot(omegas, row, color=cycled(family), ls=("-", "--", "-.")[family])
+            family = families.index(kind)
+            (line,) = ax.plot(omegas, row, color=cycled(family), ls=("-", "--", "-.", ":")[family])
             ax.annotate(
                 name, (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,
@@ -188,10 +160,10 @@ def campbell(
     count: int = 3,
     orders: int = 6,
     *,
-    planes: Sequence[Plane] = ("lag",),
+    only: Family | None = None,
     theory: Theory = BERNOULLI_EULER,
 ) -> Campbell:
-    """Return the Campbell diagram of the first `count` modes, by default of modes in the plane.
+    """Return the Campbell diagram of the first `count` modes, tracked by their shapes.
 
     Parameters
     ----------
@@ -199,11 +171,11 @@ def campbell(
     omegas : array_like
         Rotation speeds [rad/s], ascending.
     count : int
-        Number of modes of each family, those lowest at the first speed.
+        Number of modes, those lowest at the first speed.
     orders : int
         Lines kω up to this k.
-    planes : sequence of str
-        Families: "lag", "flap" and "torsion", as in `linear_modes`.
+    only : {"flap", "lag", "torsion", "axial"}, optional
+        One family, as of `linear_modes`.
     theory : Theory
         Extension, shear, rotary inertia and trapeze effect.
 
@@ -217,55 +189,38 @@ def campbell(
     >>> from analytic import Beam, campbell
     >>> diagram = campbell(Beam.reference(), omegas=range(0, 13, 3), count=2, orders=4)
     >>> for meeting in diagram.crossings[:3]:
-    ...     print(f"mode {meeting.mode} meets {meeting.order}ω at {meeting.omega:.3f} rad/s")
-    mode 1 meets 1ω at 3.208 rad/s
-    mode 1 meets 2ω at 1.490 rad/s
-    mode 1 meets 3ω at 0.980 rad/s
+    ...     print(f"{meeting.mode} meets {meeting.order}ω at {meeting.omega:.3f} rad/s")
+    lag 1 meets 1ω at 3.208 rad/s
+    lag 1 meets 2ω at 1.490 rad/s
+    lag 1 meets 3ω at 0.980 rad/s
     """
     speeds = finite_values("omegas", omegas, "rad/s")
     for speed in speeds:
         rotation_speed(float(speed), "omegas")
     require_ascending("omegas", speeds, "rad/s")
     count, orders = whole_number("count", count), whole_number("orders", orders)
-    if not planes or len(set(planes)) < len(planes):
-        raise ValueError(f"planes must name families once each, got {list(planes)}")
-    return _diagram(beam, speeds, dict.fromkeys(planes, count), orders, theory)
+    return _diagram(beam, speeds, count, orders, only, theory)
 
 
 def _diagram(
-    beam: AnyBlade, speeds: FloatArray, counts: Mapping[Plane, int], orders: int, theory: Theory
+    beam: AnyBlade,
+    speeds: FloatArray,
+    count: int,
+    orders: int,
+    only: Family | None,
+    theory: Theory,
 ) -> Campbell:
-    """Return the diagram of so many modes of each family."""
-    parts = [_family(beam, speeds, n, orders, plane, theory) for plane, n in counts.items()]
-    return replace(
-        parts[0],
-        frequencies=np.hstack([one.frequencies for one in parts]),
-        mac=np.hstack([one.mac for one in parts]),
-        crossings=tuple(crossing for one in parts for crossing in one.crossings),
-        planes=tuple(plane for one in parts for plane in one.planes),
-    )
-
-
-def _family(
-    beam: AnyBlade, speeds: FloatArray, count: int, orders: int, plane: Plane, theory: Theory
-) -> Campbell:
-    """Return the diagram of one family."""
-    wanted = count + _SPARE_MODES * (plane != "torsion")  # whose modes keep their order
+    """Return the diagram of so many modes."""
+    wanted = count + _SPARE_MODES
     ends = [
-        linear_modes(
-            beam, omega, wanted, plane=plane, theory=theory, functions=max(20, 2 * wanted)
-        ).model
+        linear_modes(beam, omega, wanted, only=only, theory=theory, functions=max(20, 2 * wanted))
         for omega in {float(speeds[0]), float(speeds[-1])}
     ]
     # A model that resolves the modes at both ends does so between them.
-    model: Any = max(ends, key=lambda one: one.bending)
-    family = None if plane == "lag" else plane
-    in_space = plane != "lag" or lives_in_space(beam)
+    finest = max(ends, key=lambda modes: modes.model.bending)
 
-    def modes_at(omega: float, near: Any = None) -> LinearModes:
-        if not in_space:
-            return modes_on(model, beam, omega, wanted, theory)
-        return space_modes_on(model, beam, omega, wanted, family=family, near=near)
+    def modes_at(omega: float, near: LinearModes | None = None) -> LinearModes:
+        return modes_on(finest.model, finest.beam, omega, wanted, theory, only, near=near)
 
     found: list[LinearModes] = []
     for omega in speeds.tolist():
@@ -277,19 +232,21 @@ def _family(
         columns.append(_followed(assurance))
         assurances.append(assurance[np.arange(count), columns[-1]])
 
+    names = found[0].names[:count]
     crossings = [
-        replace(crossing, plane=plane)
+        Crossing(mode=names[column], order=order, omega=omega, frequency=order * omega)
         for pair, places in zip(pairwise(found), pairwise(columns), strict=True)
-        for crossing in _met(pair, places, orders, modes_at)
+        for column, order, omega in _met(pair, places, orders, modes_at)
     ]
     return Campbell(
         beam=beam,
         omegas=speeds,
         frequencies=np.array([m.frequencies[c] for m, c in zip(found, columns, strict=True)]),
         mac=np.array(assurances).reshape(-1, count),
-        crossings=tuple(sorted(crossings, key=lambda c: (c.mode, c.order))),
-        planes=(plane,) * count,
+        crossings=tuple(sorted(crossings, key=lambda c: (names.index(c.mode), c.order))),
+        names=names,
         theory=theory,
+        _only=only,
     )
 
 
@@ -298,8 +255,8 @@ def _met(
     columns: tuple[NDArray[np.intp], NDArray[np.intp]],
     orders: int,
     modes_at: Callable[..., LinearModes],
-) -> Iterator[Crossing]:
-    """Yield where frequencies cross kω between two speeds, of the modes that hold these places.
+) -> Iterator[tuple[int, int, float]]:
+    """Yield column, k and ω where frequencies cross kω between two speeds.
 
     In ascending order frequencies are continuous. A mode followed by its shape changes its place
     at once where two of them veer, and passes a line in between without being there.
@@ -325,8 +282,7 @@ def _met(
             )
             held = _followed(_assurance(ends[0], at(square))[columns[0]])
             for column in np.flatnonzero(held == place).tolist():
-                omega = math.sqrt(square)
-                yield Crossing(mode=column + 1, order=order, omega=omega, frequency=order * omega)
+                yield column, order, math.sqrt(square)
 
 
 def _followed(assurance: FloatArray) -> NDArray[np.intp]:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Literal, get_args
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from ...arrays import FloatArray
+from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, warn_if_rpm
-from ...input_checks import rotation_speed, whole_number
+from ...blade import Blade
+from ...input_checks import rotation_speed, shown, whole_number
 from ...methods.system import inverse_eigenvalues
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
@@ -23,15 +25,19 @@ from ..beam.steady import (
     solve_modes,
     steady_rotation,
 )
-from ..space.modes import LinearModes, modes_across, space_modes
+from ..space.continuum import SpaceContinuum
+from ..space.modes import (
+    FAMILIES,
+    Family,
+    LinearModes,
+    mode_names,
+    space_modes,
+    space_modes_on,
+)
 from ..space.steady import lives_in_space, space_rotation
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
-
-
-Plane = Literal["lag", "flap", "torsion"]
-"""A family of modes: in the blade's plane of bending, out of it, or of its twist."""
 
 
 @one_thread
@@ -40,14 +46,15 @@ def linear_modes(
     omega: float,
     count: int = 3,
     *,
-    plane: Plane = "lag",
+    only: Family | None = None,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 20,
 ) -> LinearModes:
-    """Return the modes of the beam in steady rotation at `omega`, by default in its plane.
+    """Return the modes of the beam in steady rotation at `omega`, by name and ascending.
 
-    Undamped and geometrically exact: about the stretched state, with the Coriolis coupling of
-    bending and axial motion. Of a theory without extension they are the modes of
+    Undamped and geometrically exact: about the steady state, with the Coriolis coupling. They are
+    all that the blade's data allow; where the section out of the plane is unknown, those of lag and
+    axial motion. In the plane and without extension they are the modes of
     v'''' - (w̄²/2)[(1 - x²)v']' - (w̄² + w̄_n²)v = 0, from which the corrected Eq. 81 follows.
 
     Parameters
@@ -57,17 +64,13 @@ def linear_modes(
         Rotation speed ω [rad/s].
     count : int
         Number of modes.
-    plane : str
-        "lag" is the blade's own plane of bending, "flap" the plane normal to the plane of rotation.
-        "flap" and "torsion" need a blade that bends in the plane of rotation and has a known
-        section out of it. To this order they are independent of each
-        other. Of a blade with a twist, precone, prebend, sweep, offset, or a setting angle and a
-        known section out of the plane, they are not: then these are all of them.
+    only : {"flap", "lag", "torsion", "axial"}, optional
+        One family: modes that have most of their kinetic energy in this motion.
     theory : Theory
         Extension, shear, rotary inertia, trapeze effect.
     functions : int
-        Least number of functions for the tangent's angle, at most 256; half as many modes are
-        resolved. They grow by half until half as many again change no frequency by 1e-9.
+        Least number of functions for the tangent's angle in the plane, at most 256; half as many
+        modes are resolved. They grow by half until half as many again change no frequency by 1e-9.
 
     Raises
     ------
@@ -80,69 +83,142 @@ def linear_modes(
     Examples
     --------
     >>> from analytic import Beam, linear_modes
-    >>> print(linear_modes(Beam.reference(), omega=6.0).frequencies.round(5))
-    [ 3.7304  23.01006 56.64712]
+    >>> modes = linear_modes(Beam.reference(), omega=6.0)
+    >>> print(*modes.names, modes.frequencies.round(5))
+    lag 1 lag 2 lag 3 [ 3.7304  23.01006 56.64712]
     """
     omega = rotation_speed(omega)
     count = whole_number("count", count)
     require_theory(theory)
     warn_if_rpm(beam, omega)
-    if plane not in get_args(Plane):
-        raise ValueError(f"plane must be 'lag', 'flap' or 'torsion', got {plane!r}")
+    require_family(only)
+    section = beam.blade.section
+    unknown = section.out_of_plane is None and not section.at_stations
+    if not lives_in_space(beam) and (only in ("lag", "axial") or unknown):
+        return _modes_in_plane(beam, omega, count, theory, functions, only)
+    return space_modes(_known_in_space(beam, only), omega, count, theory, only)
+
+
+def driven_modes(
+    beam: AnyBlade,
+    omega: float,
+    count: int = 1,
+    *,
+    theory: Theory = BERNOULLI_EULER,
+    functions: int = 20,
+) -> LinearModes:
+    """Return the lowest modes that a drive in the plane of rotation excites.
+
+    Those of the plane of bending of a planar blade, and all of others.
+    """
     if lives_in_space(beam):
-        if plane != "lag":
-            raise ValueError(
-                f"flap, lag and torsion of this blade go together, and plane is {plane!r}: leave "
-                "it out, and take the shares of each mode"
-            )
         return space_modes(beam, omega, count, theory)
-    if plane != "lag":
-        return modes_across(beam, omega, count, theory, plane)
+    return _modes_in_plane(beam, omega, count, theory, functions, None)
+
+
+def _modes_in_plane(
+    beam: AnyBlade, omega: float, count: int, theory: Theory, functions: int, only: Family | None
+) -> LinearModes:
     # Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
     first = steady_rotation(beam, omega, resolved_model(beam, count, theory, functions))
-    (steady, modes), _, error = settled(
-        lambda steady: (steady, solve_modes(steady)),
+    modes, _, error = settled(
+        lambda steady: modes_on(steady.model, beam, omega, count, theory, only),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
         _SETTLED,
-        lambda found: np.log(found[1].frequencies[:count]),
+        lambda modes: np.log(modes.frequencies),
         f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
         "rotate slower",
     )
-    return _in_units(beam, omega, count, steady, modes, theory, error)
+    return replace(modes, error=error)
+
+
+def require_family(only: object) -> None:
+    """Refuse a name that is no family of modes."""
+    if only is not None and only not in FAMILIES:
+        raise ValueError(f"only must be one of {', '.join(FAMILIES)}, got {shown(only)}")
+
+
+def _known_in_space(beam: AnyBlade, only: Family | None) -> Blade:
+    """Return a blade with its stiffness in torsion; one that is unknown is taken for rigid.
+
+    Flap of a planar blade does without it; its torsion is refused.
+    """
+    blade = beam.blade
+    out = blade.section.out_of_plane
+    rigid = out is not None and (out.torsion_ratio is None or math.isinf(out.torsion_ratio))
+    if only == "torsion" and rigid:
+        raise ValueError(
+            "torsion has no modes where torsion_ratio is unknown or infinite: give GJ/EI by "
+            "with_section_out_of_plane or with_shape"
+        )
+    if out is None or out.torsion_ratio is not None or lives_in_space(blade):
+        return blade
+    return blade.with_section_out_of_plane(out.bending_ratio, math.inf)
+
+
+def mode_name(beam: AnyBlade, omega: float, mode: object, theory: Theory) -> str:
+    """Return the name of a mode, given by name or by its number in `linear_modes`."""
+    if not isinstance(mode, str) or mode.isdecimal():
+        number = whole_number("mode", int(mode) if isinstance(mode, str) else mode)
+        return linear_modes(beam, omega, number, theory=theory).names[number - 1]
+    family, _, number_of = mode.partition(" ")
+    if family not in FAMILIES or not number_of.isdecimal() or int(number_of) < 1:
+        raise ValueError(
+            f"mode must be a name, 'lag 1' say, or a number from 1, got {shown(mode)}: families "
+            f"are {', '.join(FAMILIES)}"
+        )
+    return f"{family} {int(number_of)}"
+
+
+def names_in_plane(steady: SteadyBeam, modes: Modes, setting: float) -> tuple[str, ...]:
+    """Return the names of modes in the plane of bending, set at an angle [rad]."""
+    return mode_names(steady.model.shares(steady.equilibrium, _phased(steady, modes), setting))
+
+
+def _phased(steady: SteadyBeam, modes: Modes) -> ComplexArray:
+    """Return the shapes with their phases: θ and γ go with the sine, e with the cosine."""
+    return np.asarray(modes.coordinates * np.where(steady.odd, 1.0, 1.0j))
 
 
 def modes_on(
-    model: Continuum, beam: AnyBlade, omega: float, count: int, theory: Theory
+    model: Continuum | SpaceContinuum,
+    beam: AnyBlade,
+    omega: float,
+    count: int,
+    theory: Theory,
+    only: Family | None = None,
+    *,
+    near: LinearModes | None = None,
 ) -> LinearModes:
-    """Return the modes on a discretization that is known to resolve them, unchecked."""
-    steady = steady_rotation(beam, omega, model)
-    return _in_units(beam, omega, count, steady, solve_modes(steady), theory, math.nan)
+    """Return the modes on a discretization known to resolve them, unchecked.
 
-
-def _in_units(
-    beam: AnyBlade, omega: float, count: int, steady: SteadyBeam, modes: Modes, theory: Theory,
-    error: float,
-) -> LinearModes:  # fmt: skip
-    shapes, setting = modes.coordinates[:count], beam.setting_angle
-    return LinearModes(
+    In space the steady state is sought from that of modes on it at a speed nearby.
+    """
+    if isinstance(model, SpaceContinuum):
+        return space_modes_on(model, beam, omega, count, only, near=near)
+    steady, setting = steady_rotation(beam, omega, model), beam.setting_angle
+    solved = solve_modes(steady)
+    shapes = _phased(steady, solved)
+    modes = LinearModes(
         beam=beam,
         omega=omega,
         theory=theory,
-        frequencies=modes.frequencies[:count] * beam.frequency_scale,
-        shares=steady.model.shares(steady.equilibrium, shapes, setting),
-        error=error,
-        model=steady.model,
+        frequencies=solved.frequencies * beam.frequency_scale,
+        shares=model.shares(steady.equilibrium, shapes, setting),
+        error=math.nan,
+        model=model,
         coordinates=shapes,
         setting=setting,
         _steady=steady.equilibrium,
     )
+    return modes.lowest(count, only)
 
 
 @one_thread
 def damping_ratios(
     beam: AnyBlade, omega: float, count: int = 3, *, theory: Theory = BERNOULLI_EULER
 ) -> FloatArray:
-    """Return the damping ratios ζ of the modes of `linear_modes`, (count,).
+    """Return the damping ratios ζ of modes, (count,): of a planar blade those in its plane.
 
     ζ = -Re λ/|λ| of the eigenvalues λ of small vibration about the stretched state; free vibration
     of mode j decays as exp(-ζ_j |λ_j| t), with |λ_j| near the frequency of `linear_modes`.
@@ -167,7 +243,7 @@ def damping_ratios(
     [0.00791 0.00831 0.02347]
     """
     omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
-    modes = linear_modes(beam, omega, count, theory=theory, functions=max(20, 2 * count))
+    modes = driven_modes(beam, omega, count, theory=theory, functions=max(20, 2 * count))
     rotation: Any = space_rotation if lives_in_space(beam) else steady_rotation
     steady = rotation(beam, omega, modes.model)
     at_rest = np.zeros((1, steady.size))

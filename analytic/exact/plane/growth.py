@@ -18,6 +18,7 @@ from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ..beam.steady import SteadyBeam, resolved_model
 from ..free.path import AmplitudeNotReachedError, ModePath
+from ..linear.modes import mode_name
 from .out_of_plane import OutOfPlaneMotion, Space, with_points_for
 
 GROWTH = 1e-5
@@ -215,17 +216,26 @@ class PlanarOrbits(ModePath):
 def planar_orbits(
     blade: AnyBlade,
     omega: float,
-    mode: int = 1,
+    mode: str | int = "lag 1",
     theory: Theory = BERNOULLI_EULER,
     damping: float = 0.0,
 ) -> PlanarOrbits:
     """Return the planar orbits of a mode at ω [rad/s]."""
     free = undamped(blade)
-    model = resolved_model(free, mode, theory, _FUNCTIONS)
+    name = lag_mode(free, omega, mode, theory)
+    model = resolved_model(free, int(name.split()[1]), theory, _FUNCTIONS)
     return PlanarOrbits(
-        beam=free, omega=omega, mode=mode, theory=theory, model=model,
+        beam=free, omega=omega, mode=name, theory=theory, model=model,
         blade=blade, damping=not_negative("damping", damping),
     )  # fmt: skip
+
+
+def lag_mode(blade: AnyBlade, omega: float, mode: object, theory: Theory) -> str:
+    """Return the name of a mode, which is of lag: other orbits are not in the plane."""
+    name = mode_name(blade, omega, mode, theory)
+    if not name.startswith("lag"):
+        raise ValueError(f"planar orbits grow out of modes of lag, and mode is {name!r}: 'lag 1'")
+    return name
 
 
 def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...beam import AnyBlade, require_out_of_plane, undamped
-from ...input_checks import not_negative, rotation_speed, whole_number
+from ...input_checks import not_negative, rotation_speed
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..free.backbone import periodic_orbits
 from ..free.branch import OrbitSet
-from .growth import grown_and_checked, planar_orbits
+from .growth import grown_and_checked, lag_mode, planar_orbits
 
 
 @one_thread
@@ -119,7 +119,7 @@ class PlanarStability(GrowthOutOfPlane):
 
     blade: AnyBlade
     omega: float
-    mode: int
+    mode: str
     theory: Theory
 
     def __str__(self) -> str:
@@ -141,7 +141,7 @@ def planar_stability(
     blade: AnyBlade,
     omega: float,
     amplitudes: float | Sequence[float] | FloatArray,
-    mode: int = 1,
+    mode: str | int = "lag 1",
     *,
     damping: float = 0.0,
     theory: Theory = BERNOULLI_EULER,
@@ -163,8 +163,8 @@ def planar_stability(
         Rotation speed ω [rad/s].
     amplitudes : float or sequence of float
         Peak tip deflections |q|/L of the orbits.
-    mode : int
-        In-plane mode from which they grow, from 1.
+    mode : str or int
+        Mode of lag from which they grow, as of `backbone`.
     damping : float
         Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
     theory : Theory
@@ -188,10 +188,11 @@ def planar_stability(
     """
     require_out_of_plane(blade, theory)
     ratio = not_negative("damping", damping)
+    free = undamped(blade)
+    name = lag_mode(free, omega, mode, theory)
     orbits = periodic_orbits(
-        undamped(blade), omega, amplitudes, mode, theory=theory,
-        functions=max(16, 2 * whole_number("mode", mode)),
-    )  # fmt: skip
+        free, omega, amplitudes, name, theory=theory, functions=max(16, 2 * int(name.split()[1]))
+    )
     found = grown_about(blade, orbits, theory, ratio)
     return PlanarStability(
         blade=blade, omega=orbits.omega, mode=orbits.mode, theory=theory, **found

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from ...beam import AnyBlade, require_out_of_plane
-from ...input_checks import peak_deflection, rotation_speed, whole_number
+from ...input_checks import peak_deflection, rotation_speed
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
@@ -71,7 +71,7 @@ class StabilityLimit:
 
     blade: AnyBlade
     omega: float
-    mode: int
+    mode: str
     damping: float
     theory: Theory
     growth: float
@@ -112,7 +112,7 @@ class StabilityLimit:
 def stability_limit(
     blade: AnyBlade,
     omega: float,
-    mode: int = 1,
+    mode: str | int = "lag 1",
     *,
     damping: float = 0.0,
     largest: float = LARGEST,
@@ -153,8 +153,7 @@ def stability_limit(
     (0.059, 0.052)
     """
     require_out_of_plane(blade, theory)
-    omega, mode = rotation_speed(omega), whole_number("mode", mode)
-    orbits = planar_orbits(blade, omega, mode, theory, damping)
+    orbits = planar_orbits(blade, rotation_speed(omega), mode, theory, damping)
     return _limit(orbits, orbits.least, peak_deflection("largest", largest))
 
 

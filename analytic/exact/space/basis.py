@@ -111,6 +111,11 @@ class StrainFunctions:
         more = _MORE if self.blade.cells.size <= _MANY_CELLS else _FEW
         return self.blade.grid(2 * self.bending, more, of_fields=True)
 
+    @property
+    def uncoupled(self) -> bool:
+        """Whether lag and axial motion go without flap and torsion."""
+        return self.blade.half_turn and self.blade.mirrored
+
     @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
         """True for coordinates that time reversal turns around, (n,); None without a reversal."""

@@ -318,7 +318,7 @@ class SpaceContinuum:
         return place, turn[0]
 
     def shares(self, q: FloatArray, shapes: ComplexArray, setting: float = 0.0) -> FloatArray:
-        """Return the shares of flap, lag and torsion in their kinetic energy, (count, 3)."""
+        """Return the shares of flap, lag, torsion and axial motion in their kinetic energy."""
         del setting
         change, masses = self.changes(q[None]), self.masses
         moved = np.abs(shapes @ change.center[:, 0]) ** 2 @ masses.mass
@@ -326,8 +326,11 @@ class SpaceContinuum:
         spin = np.einsum("ijp,ikp->jkp", frame, shapes @ change.turn_m[:, 0])  # in R's axes
         turning = np.einsum("ikp,ijp,jkp->k", spin.conj(), masses.inertia, spin).real
         twist = np.abs(spin[0]) ** 2 @ masses.inertia[0, 0]
-        parts = np.stack((moved[2], moved[1], twist), axis=-1)
-        return np.asarray(parts / (moved.sum(axis=0) + turning)[:, None])
+        # Rotary inertia of bending goes with lag and flap.
+        across = moved[1] + moved[2]
+        more = 1.0 + (turning - twist) / np.where(across > 0.0, across, 1.0)
+        parts = np.stack((more * moved[2], more * moved[1], twist, moved[0]), axis=-1)
+        return np.asarray(parts / parts.sum(axis=1, keepdims=True))
 
     def struck(self, speed: float) -> FloatArray:
         """Return the rates (n,) of a straight blade that flaps as `kicked_state` has it."""

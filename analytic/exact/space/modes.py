@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_out_of_plane
+from ...beam import AnyBlade
 from ...input_checks import points_of_beam
 from ...methods.system import reciprocal_modes
 from ...settled import settled
@@ -19,7 +19,7 @@ from .continuum import SpaceContinuum
 from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
-_ONLY_TWISTS = 1e-6  # displacement of the tip over the length, times its turn
+_ONLY_TURNS = 1e-6  # displacement of the tip over the length, times its turn
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
 """Directions of the tip, in the root frame, whose peak may be called the amplitude."""
 
@@ -30,9 +30,20 @@ def require_gauge(gauge: object) -> None:
         raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
 
 
+Family = Literal["flap", "lag", "torsion", "axial"]
+"""A family of modes, by the largest share of their kinetic energy."""
+FAMILIES: tuple[Family, ...] = get_args(Family)
+
+
+def mode_names(shares: FloatArray) -> tuple[str, ...]:
+    """Return the names of modes in ascending order, "lag 1" say, by their shares (count, 4)."""
+    kinds = [FAMILIES[k] for k in np.argmax(shares, axis=1).tolist()]
+    return tuple(f"{kind} {kinds[: i + 1].count(kind)}" for i, kind in enumerate(kinds))
+
+
 @dataclass(frozen=True, kw_only=True)
 class LinearModes:
-    """Modes about the rotating steady state, in the plane or in space; made by `linear_modes`.
+    """Modes about the rotating steady state; made by `linear_modes`.
 
     Attributes
     ----------
@@ -40,8 +51,11 @@ class LinearModes:
     frequencies : ndarray (count,)
         Natural frequencies in the rotating frame [rad/s], ascending. Sections are free to warp: a
         clamp that holds it raises those of torsion by a quarter of its depth over the length.
-    shares : ndarray (count, 3)
-        Shares of flap, lag and torsion in the kinetic energy of each mode.
+    names : tuple of str
+        "lag 1", "flap 2", "torsion 1", "axial 1": the family of the largest share, and the number
+        within the family from the lowest frequency on.
+    shares : ndarray (count, 4)
+        Shares of flap, lag, torsion and axial motion in the kinetic energy of each mode.
     error : float
         Largest relative change of the frequencies by the last refinement.
     coordinates : ndarray (count, n)
@@ -49,12 +63,18 @@ class LinearModes:
 
     Examples
     --------
-    >>> from analytic import Beam, linear_modes
-    >>> modes = linear_modes(Beam.reference(), omega=6.0, count=2)
-    >>> print(modes.lag([2.0, 4.0, 8.0]).round(4))
-    [[ 0.1307 -0.3935]
-     [ 0.3889 -0.6521]
-     [ 1.      1.    ]]
+    >>> from analytic import Beam, Rectangle, linear_modes
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> modes = linear_modes(strip, omega=6.0, count=4)
+    >>> for name, frequency in zip(modes.names, modes.frequencies, strict=True):
+    ...     print(f"{name} {frequency:.3f} rad/s")
+    lag 1 3.730 rad/s
+    flap 1 6.048 rad/s
+    flap 2 14.831 rad/s
+    lag 2 23.009 rad/s
+    >>> along, lag, flap, twist = modes.shapes([4.0, 8.0])
+    >>> print(lag[:, 0].real.round(3))
+    [0.389 1.   ]
     """
 
     beam: AnyBlade
@@ -64,91 +84,64 @@ class LinearModes:
     shares: FloatArray
     error: float
     model: Any = field(repr=False)
-    coordinates: Any = field(repr=False)
+    coordinates: ComplexArray = field(repr=False)
     setting: float = field(repr=False)
     _steady: FloatArray = field(repr=False)
 
-    def lag(self, x: ArrayLike) -> Any:
-        """Return the displacements at `x` [m] in the direction of rotation, (points, count)."""
-        return self._moved(x)[0][1]
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the modes."""
+        return mode_names(self.shares)
 
-    def flap(self, x: ArrayLike) -> Any:
-        """Return the displacements at `x` [m] normal to it and to the clamp, (points, count).
+    def shapes(self, x: ArrayLike) -> ComplexArray:
+        """Return the shapes at `x` [m], (4, points, count).
 
-        On the scale of `lag`: the largest of all is 1 at the tip. In space the phase tells which is
-        ahead. Where the tip only twists, to 1e-6 of its turn times the length, the twist is.
+        Displacements along the clamp's line, in the direction of rotation (lag) and normal to both
+        (flap), and the turn about the clamp's line [rad]. The largest displacement of the tip is 1;
+        where the tip only turns, to 1e-6 of its turn times the length, the turn is. Motion is the
+        real part times exp(iΩt): the phase says which part is ahead.
         """
-        return self._moved(x)[0][2]
-
-    def twist(self, x: ArrayLike) -> Any:
-        """Return the turns about the clamp's axis at `x` [m] on that scale, (points, count)."""
-        return self._moved(x)[1]
-
-    def shapes(self, x: ArrayLike) -> FloatArray:
-        """Return the deflections of a planar blade in its plane of bending at `x` [m]."""
-        if self.model.in_space:
-            raise ValueError("this blade bends in space: take lag, flap and twist of its modes")
-        (_, lag, flap), _ = self._moved(x)
-        return np.asarray(math.cos(self.setting) * lag + math.sin(self.setting) * flap)
-
-    def _moved(self, x: ArrayLike) -> tuple[Any, Any]:
         length = self.beam.length
         at = np.append(points_of_beam("x", x, length), 1.0)
         moved, turn = self.model.moved(self._steady, self.coordinates, at, self.setting)
-        place, tip = length * moved, length * moved[:, -1]
-        across = tip if self.model.in_space else np.stack((tip[0], np.hypot(*tip[1:])))
-        k = np.argmax(np.abs(across), axis=0)[None]
-        largest = np.take_along_axis(across, k, axis=0)[0]
-        if not self.model.in_space:
-            sign = np.sign(math.cos(self.setting) * tip[1] + math.sin(self.setting) * tip[2])
-            largest = np.where(k[0] == 1, sign * largest, largest)
-        only = np.abs(largest) < _ONLY_TWISTS * length * np.abs(turn[-1])
-        largest = np.where(only, turn[-1], largest)
-        return place[:, :-1] / largest, turn[:-1] / largest
+        parts = np.concatenate((length * moved, turn[None]))
+        tip = parts[:3, -1]
+        largest = np.take_along_axis(tip, np.argmax(np.abs(tip), axis=0)[None], axis=0)[0]
+        only_turns = np.abs(largest) < _ONLY_TURNS * length * np.abs(parts[3, -1])
+        return np.asarray(parts[:, :-1] / np.where(only_turns, parts[3, -1], largest))
 
-
-def modes_across(
-    blade: AnyBlade, omega: float, count: int, theory: Theory, family: str
-) -> LinearModes:
-    """Return the lowest modes of "flap" or "torsion" of a planar blade, by their larger share.
-
-    Both move without lag, and without each other unless slices have rotary inertia. The trapeze
-    effect and the propeller moment stiffen torsion. Of the paper's rectangle at 12 rad/s its first
-    is at 64.49 rad/s without either, at 65.59 with the propeller moment alone, and at 66.75 with
-    both.
-    """
-    known = require_out_of_plane(blade, torsion=False)
-    if family == "flap":
-        if known.torsion_ratio is None:
-            rigid = blade.with_section_out_of_plane(known.bending_ratio, math.inf)
-            return replace(space_modes(rigid, omega, count, theory, family), beam=blade)
-    elif known.torsion_ratio is None or math.isinf(known.torsion_ratio):
-        raise ValueError(
-            "torsion has no modes where torsion_ratio is unknown or infinite: give GJ/EI by "
-            "with_section_out_of_plane or with_shape"
+    def lowest(self, count: int, only: Family | None = None) -> LinearModes:
+        """Return the lowest modes, of all or of one family."""
+        names = self.names
+        of = [k for k, name in enumerate(names) if only is None or name.startswith(only)][:count]
+        if len(of) < count:
+            raise ValueError(
+                f"count is {count}, and the blade has {len(of)} {only or ''} modes: flap and "
+                "torsion need a section that is known out of the plane, and no motion without "
+                f"stiffness or inertia has modes; the lowest are {', '.join(names[:4])}"
+            )
+        return replace(
+            self,
+            frequencies=self.frequencies[of],
+            shares=self.shares[of],
+            coordinates=self.coordinates[of],
         )
-    elif blade.section.rotary_inertia == 0.0:
-        raise ValueError(
-            "torsion has no modes without inertia of the slices: leave rotary_inertia out of the "
-            "section, for that of a homogeneous one"
-        )
-    return space_modes(blade, omega, count, theory, family)
 
 
 def space_modes(
-    blade: AnyBlade, omega: float, count: int, theory: Theory, family: str | None = None
+    blade: AnyBlade, omega: float, count: int, theory: Theory, only: Family | None = None
 ) -> LinearModes:
-    """Return the lowest modes, or those of a family alone, on more functions until they settle."""
+    """Return the lowest modes, of all or of one family, on more functions until they settle."""
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
-    _, (steady, (found, shapes)), error = settled(
-        lambda one: (one, _solved(one, family)),
+    _, modes, error = settled(
+        lambda steady: _modes_of(blade, omega, steady).lowest(count, only),
         finer_blades(space_rotation(blade, omega, model)),
         model.functions.blade.tolerance,
-        lambda solved: np.log(solved[1][0][:count]),
+        lambda modes: np.log(modes.frequencies),
         f"the frequencies at omega = {omega:g} rad/s",
         "ask for fewer modes, or rotate slower",
     )
-    return _packed(blade, omega, steady, found[:count], shapes[:, :count], error)
+    return replace(modes, error=error)
 
 
 def space_modes_on(
@@ -156,8 +149,8 @@ def space_modes_on(
     blade: AnyBlade,
     omega: float,
     count: int,
+    only: Family | None = None,
     *,
-    family: str | None = None,
     near: LinearModes | None = None,
 ) -> LinearModes:
     """Return the modes on a discretization that is known to resolve them, unchecked.
@@ -167,18 +160,11 @@ def space_modes_on(
     steady = space_rotation(blade, omega, model)
     if near is not None:
         steady = replace(steady, near=near._steady)
-    found, shapes = _solved(steady, family)
-    return _packed(blade, omega, steady, found[:count], shapes[:, :count], math.nan)
+    return _modes_of(blade, omega, steady).lowest(count, only)
 
 
-def _packed(
-    blade: AnyBlade,
-    omega: float,
-    steady: SpaceBlade,
-    frequencies: FloatArray,
-    shapes: ComplexArray,
-    error: float,
-) -> LinearModes:
+def _modes_of(blade: AnyBlade, omega: float, steady: SpaceBlade) -> LinearModes:
+    frequencies, shapes = _solved(steady)
     return LinearModes(
         beam=blade,
         omega=omega,
@@ -186,24 +172,30 @@ def _packed(
         frequencies=frequencies * blade.frequency_scale,
         shares=steady.model.shares(steady.equilibrium, shapes.T),
         setting=0.0,
-        error=error,
+        error=math.nan,
         model=steady.model,
         coordinates=shapes.T,
         _steady=steady.equilibrium,
     )
 
 
-def _solved(steady: SpaceBlade, family: str | None = None) -> tuple[FloatArray, ComplexArray]:
-    """Return the frequencies, ascending, and the shapes (n, modes) in columns."""
-    every = np.arange(steady.size)
-    if family is None:
-        return _block(steady, every)
-    bending, twists, _, shear = steady.model.functions.counts
-    apart = every[1:bending:2], every[bending : bending + twists], every[every.size - shear // 2 :]
-    frequencies, shapes = _block(steady, np.concatenate(apart))
-    torsion = steady.model.shares(steady.equilibrium, shapes.T)[:, 2] > 0.5
-    kept = torsion == (family == "torsion")
-    return frequencies[kept], shapes[:, kept]
+def _solved(steady: SpaceBlade) -> tuple[FloatArray, ComplexArray]:
+    """Return the frequencies, ascending, and the shapes (n, modes) in columns.
+
+    Where lag goes without flap and torsion each block is solved alone: equal frequencies of both
+    would mix them.
+    """
+    functions = steady.model.functions
+    if not functions.uncoupled or steady.push is not None:
+        return _block(steady, np.arange(steady.size))
+    turned, mirrored = functions.odd_by(mirror=False), functions.odd_by(mirror=True)
+    # The mirror through the plane keeps lag and axial motion, and turns flap and torsion around.
+    parts = [
+        _block(steady, np.flatnonzero(one)) for one in (turned == mirrored, turned != mirrored)
+    ]
+    frequencies, shapes = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
+    order = np.argsort(frequencies, kind="stable")
+    return frequencies[order], shapes[:, order]
 
 
 def flap_shape(model: SpaceContinuum) -> FloatArray:
@@ -215,8 +207,7 @@ def flap_shape(model: SpaceContinuum) -> FloatArray:
 
 def _block(steady: SpaceBlade, moving: NDArray[np.intp]) -> tuple[FloatArray, ComplexArray]:
     """Return the same where only some coordinates move."""
-    parts: list[Any] = [part[0][np.ix_(moving, moving)] for part in steady.linearized[1:]]
-    K, C, M = parts
+    K, C, M = (part[0][np.ix_(moving, moving)] for part in steady.linearized[1:])
     # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
     inverse, found = reciprocal_modes(0.5 * (K + K.T), -0.5j * (C - C.T), 0.5 * (M + M.T))
     kept = inverse > _MASSLESS
@@ -226,25 +217,29 @@ def _block(steady: SpaceBlade, moving: NDArray[np.intp]) -> tuple[FloatArray, Co
 
 
 def orbit_modes(
-    steady: SpaceBlade, mode: int, gauge: str | None
-) -> tuple[SpaceBlade, FloatArray, FloatArray | ComplexArray]:
-    """Return the blade with its gauge, and frequencies and shapes (modes, n) of which orbits grow.
+    steady: SpaceBlade, gauge: str
+) -> tuple[SpaceBlade, FloatArray, FloatArray | ComplexArray, tuple[str, ...]]:
+    """Return the blade with its gauge; frequencies, shapes (modes, n) and names of its modes.
 
-    The gauge is "flap" or "lag", by default that of which the mode has more; in the shapes a sine.
-    Under time reversal odd coordinates go with the sine, the others with the cosine: real shapes.
-    Without it the motion is the real part of the shape times exp(iφ).
+    Orbits grow out of the shapes; the gauge is a sine in them. Under time reversal odd coordinates
+    go with the sine, the others with the cosine: real shapes. Without it the motion is the real
+    part of the shape times exp(iφ).
     """
     frequencies, shapes = _solved(steady)
-    if gauge is None:
-        flap, lag, _ = steady.model.shares(steady.equilibrium, shapes[:, mode - 1 : mode].T)[0]
-        gauge = "flap" if flap > lag else "lag"
+    names = mode_names(steady.model.shares(steady.equilibrium, shapes.T))
     if steady.direction != DIRECTIONS[gauge]:
         steady = replace(steady, direction=DIRECTIONS[gauge], near=steady.equilibrium)
     odd, gradient = steady.odd, steady.gauge_gradient(steady.equilibrium[None])[0]
     if odd is None:
-        return steady, frequencies, np.asarray((-1j * shapes / (gradient @ shapes)).T)
+        shapes = -1j * shapes / _not_zero(gradient @ shapes)
+        return steady, frequencies, shapes.T, names
     # The phase that turns the odd ones into the sine.
-    turn = np.sum(shapes[odd] ** 2, axis=0)
+    turn = _not_zero(np.sum(shapes[odd] ** 2, axis=0))
     shapes = shapes * 1j * np.conj(np.sqrt(turn / np.abs(turn)))
     parts = np.where(odd[:, None], -shapes.imag, shapes.real).T
-    return steady, frequencies, np.asarray(parts / (parts @ gradient)[:, None])
+    return steady, frequencies, np.asarray(parts / _not_zero(parts @ gradient)[:, None]), names
+
+
+def _not_zero(values: Any) -> Any:
+    """Return values where the motion of a mode may be none: those of other blocks."""
+    return np.where(values == 0.0, 1.0, values)
