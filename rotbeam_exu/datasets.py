@@ -210,11 +210,11 @@ def _root_loads(response: SpinUpResponse) -> dict[str, tuple[Any, str]]:
     """
     found = response.section_loads([0.0])
     force, moment = found.force[:, 0], found.moment[:, 0]
-    if moment.ndim > 1:
+    whole = response._model.in_space
+    if whole:
         force, moment = ((found.section[:, 0] @ one[..., None])[..., 0] for one in (force, moment))
-    moments = np.atleast_2d(moment.T)
-    forces = zip("xyz", force.T, strict=False)
-    about = zip("xyz"[-len(moments) :], moments, strict=True)
+    forces = [*zip("xyz", force.T, strict=True)][: 2 + whole]
+    about = [*zip("xyz", moment.T, strict=True)][0 if whole else 2 :]
     return {
         **{f"root_force_{k}": (one, f"{_FORCES[k]} at the root [N]") for k, one in forces},
         **{f"root_moment_{k}": (one, f"{_MOMENTS[k]} at the root [N m]") for k, one in about},

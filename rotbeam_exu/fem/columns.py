@@ -211,8 +211,6 @@ def section_loads(
     # A blade in its plane is set as a whole, one in space along its sections.
     to_clamp = model.line_frame(built.beam).T if model.twists else set_at(beam.setting_angle)
     place[..., 0] -= built.beam.hub_radius
-    if not model.leaves_plane:
-        force, moment = force[..., :2], moment[..., 2]
     return SectionLoads(
         blade=beam,
         stations=beam.length * stations,

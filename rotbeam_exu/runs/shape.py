@@ -43,9 +43,6 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     {'time': 2, 'station': 3, 'direction': 3, 'section_axis': 3} 0.00428
     """
     force, moment = found.force, found.moment
-    if force.shape[-1] == 2:  # in its plane
-        force = force @ np.eye(2, 3)
-        moment = np.multiply.outer(moment, [0.0, 0.0, 1.0])
     strains = _strains(found, force, moment)
     over = ("time", "station")[-found.place.ndim + 1 :]
     by_axis = (*over, "section_axis")
