@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from analytic import Tube, linear_modes
-from rotbeam_exu import load, load_beam
+from rotbeam_exu import load
 from rotbeam_exu.cli.campbell import campbell as command
 from rotbeam_exu.cli.options import SectionOptions
+from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import BLADE_TOML, REED, REED_TOML
 
 PLANES = ("lag", "flap", "torsion")
