@@ -227,9 +227,9 @@ class Continuum(Kinematics):
     def section_loads(
         self, x: FloatArray, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> tuple[FloatArray, FloatArray]:
-        """Return N and Q (samples, places, 2) and M (samples, places) at `x`, by d'Alembert.
+        """Return force and moment at `x` in the section's axes, each (samples, places, 3).
 
-        Of all inertia and all loads beyond, in the section's axes.
+        By d'Alembert, of all inertia and all loads beyond: (N, Q, 0) and (0, 0, M).
         """
         at = self._fields(q, q_dot, q_ddot, by)
         moment = (at.stretch.conj() * at.force).imag @ self.integrals_at_points
@@ -239,8 +239,12 @@ class Continuum(Kinematics):
             spin_rate = q_ddot[..., : self.bending] @ self._across.once(along).T + euler
             moment = moment + (spin_rate * dj) @ self.grid.integral(along)
         onto = -self.grid.interpolation(x).T / self.weights[:, None]
-        force = at.force @ onto
-        return np.stack((force.real, force.imag), axis=-1), moment @ onto
+        force, M = at.force @ onto, moment @ onto
+        none = np.zeros_like(M)
+        return (
+            np.stack((force.real, force.imag, none), axis=-1),
+            np.stack((none, none, M), axis=-1),
+        )
 
     def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
         """Return the derivatives (samples, points, 3 n) of `turn` times a field.

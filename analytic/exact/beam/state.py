@@ -81,12 +81,13 @@ class SectionLoads:
         (lag) and normal to both (flap). The frame turns with the clamp and has its precone.
     section : ndarray (samples, stations, 3, 3)
         Axes of the sections, in columns, in the frame of `place`.
-    force : ndarray (samples, stations, 2) or (samples, stations, 3)
-        Tension N and shear force along axis 2, in space along axis 3 as well [N].
-    moment : ndarray (samples, stations) or (samples, stations, 3)
-        Bending moment M about axis 3, EI times the curvature [N m]. In space the torque, and the
-        moments about axes 2 (flap, of a blade set at zero) and 3 (lag). A steady state has no
-        samples.
+    force : ndarray (samples, stations, 3)
+        Tension N, and shear forces along axes 2 and 3 [N].
+    moment : ndarray (samples, stations, 3)
+        Torque, and bending moments about axes 2 (flap, of a blade set at zero) and 3 (lag) [N m].
+        Of a blade that bends in one plane the shear force along axis 3, the torque and the moment
+        about axis 2 are zero; where its section out of this plane is unknown they are not
+        computed. A steady state has no samples.
     trapeze : bool
         Whether twist shortens the axis, as `Theory` has it, so that tension twists a section too.
 
@@ -94,7 +95,7 @@ class SectionLoads:
     --------
     >>> from analytic import Beam, SpinUp, spin_up_response
     >>> found = spin_up_response(Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), [1.0, 2.0])
-    >>> print(found.section_loads([0.0, 4.0]).moment.round(2))
+    >>> print(found.section_loads([0.0, 4.0]).moment[..., 2].round(2))
     [[ -69.55  -20.56]
      [-220.73  -21.15]]
     """
