@@ -54,7 +54,8 @@ def test_at_rest_under_gravity_the_moment_is_the_weight_times_its_lever(beam, ta
     assert unit / length * force[0, :, 0] == pytest.approx(weight.real * mass, rel=1e-12)
     assert unit / length * force[0, :, 1] == pytest.approx(weight.imag * mass, rel=1e-12)
     # Round-off of the largest.
-    assert unit * moment[0, :, 2] == pytest.approx(weight.imag * lever, abs=1e-12 * g * lever[0])
+    bending = weight.imag * lever
+    assert unit * moment[0, :, 2] == pytest.approx(bending, abs=1e-12 * g * lever[0])
 
 
 @pytest.mark.parametrize("hub", [0.0, 0.3])

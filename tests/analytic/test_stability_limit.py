@@ -75,7 +75,7 @@ def test_the_pages_state_these_limits():
     assert len(rows) == 4
     readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     low, high = (f"{LIMITS[omega, 18.5]:.3f}" for omega in (2.0, 8.0))
-    assert f"above {low} L at 2 rad/s, and above {high} L at 8" in readme
+    assert f"from {low} L at 2 rad/s and from {high} L at 8" in readme
 
 
 @pytest.mark.slow

@@ -229,7 +229,7 @@ class Continuum(Kinematics):
     ) -> tuple[FloatArray, FloatArray]:
         """Return force and moment at `x` in the section's axes, each (samples, places, 3).
 
-        By d'Alembert, of all inertia and all loads beyond: (N, Q, 0) and (0, 0, M).
+        By d'Alembert, of all inertia and all loads beyond: N and Q, and M about the third axis.
         """
         at = self._fields(q, q_dot, q_ddot, by)
         moment = (at.stretch.conj() * at.force).imag @ self.integrals_at_points
@@ -239,12 +239,11 @@ class Continuum(Kinematics):
             spin_rate = q_ddot[..., : self.bending] @ self._across.once(along).T + euler
             moment = moment + (spin_rate * dj) @ self.grid.integral(along)
         onto = -self.grid.interpolation(x).T / self.weights[:, None]
-        force, M = at.force @ onto, moment @ onto
-        none = np.zeros_like(M)
-        return (
-            np.stack((force.real, force.imag, none), axis=-1),
-            np.stack((none, none, M), axis=-1),
-        )
+        force, moment = at.force @ onto, moment @ onto
+        none = np.zeros_like(moment)
+        parts = (force.real, force.imag, none), (none, none, moment)
+        loads, moments = (np.stack(one, axis=-1) for one in parts)
+        return loads, moments
 
     def _derivatives(self, turn: ComplexArray, *blocks: tuple[Any, Any]) -> ComplexArray:
         """Return the derivatives (samples, points, 3 n) of `turn` times a field.

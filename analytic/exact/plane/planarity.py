@@ -184,7 +184,7 @@ def planar_stability(
     >>> strip = Beam.reference().with_shape(Rectangle())
     >>> found = planar_stability(strip, 4.0, amplitudes=[0.01, 0.2])
     >>> print(found.stable, found.kind, found.growth_rate.round(1))
-    [ True False] ('', 'divergence') [  0.  120.8]
+    [ True False] ('', 'divergence') [  0.  120.9]
     """
     require_out_of_plane(blade, theory)
     ratio = not_negative("damping", damping)

@@ -71,7 +71,7 @@ class LinearModes:
     lag 1 3.730 rad/s
     flap 1 6.048 rad/s
     flap 2 14.831 rad/s
-    lag 2 23.009 rad/s
+    lag 2 23.010 rad/s
     >>> along, lag, flap, twist = modes.shapes([4.0, 8.0])
     >>> print(lag[:, 0].real.round(3))
     [0.389 1.   ]

@@ -218,7 +218,7 @@ class Formulation(Described, abstract=True):
         """
         turning = slice(self.dimensions, None)
         about_z = np.sum(self.spun(root)[:, turning] * force[:, turning], axis=1)
-        return np.multiply.outer(about_z, [0.0, 0.0, 1.0])
+        return np.asarray(about_z[:, None] * [0.0, 0.0, 1.0])
 
     def sections(self, coordinates: FloatArray) -> FloatArray:
         """Return the axes of the sections in columns, (..., 3, 3), of coordinates (..., n).
