@@ -134,7 +134,7 @@ class ForcedResponse(Branch):
     def backbone(self) -> Backbone:
         """The backbone of the undamped blade on which the response leans.
 
-        Of the first mode; in space of the first that has more of the gauge.
+        Of the first mode that has more of the gauge.
         """
         if self.load.varied == "speed":
             raise ValueError(
@@ -142,18 +142,12 @@ class ForcedResponse(Branch):
                 "backbone: take periodic_orbits at one of them"
             )
         blade, omega = undamped(self.beam), float(self.omega[0])
-        return backbone(blade, omega, theory=self.theory, **self._leans_on())
+        return backbone(blade, omega, mode=f"{self.gauge} 1", theory=self.theory)
 
     @property
     def gauge(self) -> Literal["lag", "flap"]:
         """Place of the tip whose greatest deflection is the amplitude."""
         return "flap" if self.nondimensional[0].system.steady.direction[2] else "lag"
-
-    def _leans_on(self) -> dict[str, Any]:
-        """Return the mode and the gauge of the backbone."""
-        if not self.nondimensional[0].system.model.in_space:
-            return {}
-        return {"mode": f"{self.gauge} 1"}
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.
