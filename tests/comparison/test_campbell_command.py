@@ -42,7 +42,7 @@ def test_the_modes_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
     assert written == [f"campbell-tube{end}" for end in ends]
     assert all(name in printed for name in written)
     found = load(tmp_path / "campbell-tube.nc")
-    assert set(found["mode"].to_numpy()) == {"lag 1", "flap 1", "flap 2"}
+    assert {"lag 1", "flap 1"} < set(found["mode"].to_numpy())
     known = dict(zip(modes.names, modes.frequencies, strict=True))
     for name in found["mode"].to_numpy():
         frequency = known[name]
