@@ -16,6 +16,7 @@ from ...plotting import axes_or_new, draw_response
 from ...threads import one_thread
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpecialPoint
+from ..linear.modes import driven_modes
 from ..plane.planarity import GrowthOutOfPlane, grown_about
 
 if TYPE_CHECKING:
@@ -134,7 +135,7 @@ class ForcedResponse(Branch):
     def backbone(self) -> Backbone:
         """The backbone of the undamped blade on which the response leans.
 
-        Of the first mode that has more of the gauge.
+        Of the first mode; in space of the first that has more of the gauge.
         """
         if self.load.varied == "speed":
             raise ValueError(
@@ -142,7 +143,11 @@ class ForcedResponse(Branch):
                 "backbone: take periodic_orbits at one of them"
             )
         blade, omega = undamped(self.beam), float(self.omega[0])
-        return backbone(blade, omega, mode=f"{self.gauge} 1", theory=self.theory)
+        mode = f"{self.gauge} 1"
+        if not self.nondimensional[0].system.model.in_space:
+            # Set steeply, a blade in its plane of bending has modes of flap.
+            (mode,) = driven_modes(blade, omega, theory=self.theory).names
+        return backbone(blade, omega, mode, theory=self.theory)
 
     @property
     def gauge(self) -> Literal["lag", "flap"]:
