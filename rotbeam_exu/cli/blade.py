@@ -18,7 +18,7 @@ from .motion import configured
 from .output import bar, formatted, print_columns, print_line, print_note
 
 if TYPE_CHECKING:
-    from analytic.exact.linear.modes import LinearModes
+    from analytic.exact.space.modes import LinearModes
 
 _COUNT = 6  # modes
 
