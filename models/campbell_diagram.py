@@ -28,7 +28,12 @@ print(f"lag 1 meets 2ω at ω = {first.omega:.6f} rad/s")
 # a rectangle with the paper's A and I. It is so thin that it flaps like a chain, at ω, √6 ω and
 # √15 ω, and torsion is as slow as its third lag mode.
 strip = Beam.reference().with_shape(Rectangle())
-flat = campbell(strip, diagram.omegas[::4], count=11)
 _, ax = plt.subplots(figsize=(6, 4.5))
-flat.plot(ax, highest=80.0)
+diagram.plot(ax, highest=80.0)
+for family, look, count in (("flap", "C1--", 3), ("torsion", "C2-.", 1)):
+    found = campbell(strip, diagram.omegas[::2], count, only=family)
+    ax.plot(found.omegas, found.frequencies, look)
+    ax.plot(*np.transpose([(met.omega, met.frequency) for met in found.crossings]), "k.", ms=4)
+    for name, end in zip(found.names, found.frequencies[-1], strict=True):
+        ax.annotate(name, (12.0, end), (4, -3), textcoords="offset points", color=look[:2])
 plt.show()

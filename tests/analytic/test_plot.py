@@ -94,7 +94,7 @@ def test_a_campbell_diagram_without_crossings_has_the_line_of_the_first_order(be
 
 @pytest.mark.slow  # what a user asks to be cut off
 def test_what_leaves_the_frame_of_a_campbell_diagram_has_no_name(beam):
-    diagram = campbell(beam.with_shape(Rectangle()), [0.0, 4.0], 2, only="torsion")
+    diagram = campbell(beam.with_shape(Rectangle()), [0.0, 12.0], 2, only="torsion")
     ax = diagram.plot(highest=100.0)
     names = {text.get_text() for text in ax.texts}
     assert "torsion 1" in names

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ...plotting import Axes
 
 _SOLVED, _DRAWN = 9, 61  # speeds of a picture's curves, besides their own: chords below a pixel
+_LOOKS = ("lag", "flap", "torsion", "axial")  # families, by colors and dashes
 _SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
 
 
@@ -133,12 +134,11 @@ class Campbell:
                 ha="center" if above and order < last else "right", va="bottom", clip_on=False,
             )  # fmt: skip
         kinds = [name.split()[0] for name in self.names]
-        families = list(dict.fromkeys(kinds))
         heights = apart(curves[-1], 0.045 * top)
         for kind, name, row, height in zip(kinds, self.names, curves.T, heights, strict=True):
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
-            family = families.index(kind)
+            family = _LOOKS.index(kind)
             (line,) = ax.plot(omegas, row, color=cycled(family), ls=("-", "--", "-.", ":")[family])
             ax.annotate(
                 name, (high, height), xytext=(4, 0), textcoords="offset points",
