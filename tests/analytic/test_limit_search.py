@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from analytic import Beam, Rectangle
+from analytic.exact.free.stability_limit import _limit
 from analytic.exact.plane.growth import GROWTH, Growth, planar_orbits
-from analytic.exact.plane.stability_limit import _limit
 from analytic.methods.newton import NoOrbitError
 
 
