@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from analytic import AmplitudeNotReachedError, AnyBlade
-from analytic.exact.beam.kinematics import set_at
 from analytic.exact.beam.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
@@ -75,8 +74,8 @@ def dataset_of(*results: Any) -> xr.Dataset:
     >>> from rotbeam_exu import dataset_of
     >>> spin_up = SpinUp(omega=4.0, ramp_time=3.0)
     >>> data = dataset_of(spin_up_response(Beam.reference(), spin_up, [0.0, 1.5, 3.0]))
-    >>> print(*data)
-    q q_dot tip_x tip_y along flap twist angle root_force_x root_force_y root_moment_z
+    >>> print(*data[["q", "tip_x", "tip_y", "root_force_x", "root_force_y", "root_moment_z"]])
+    q tip_x tip_y root_force_x root_force_y root_moment_z
     >>> print(data.root_moment_z.long_name, data.root_moment_z.units)
     bending moment at the root N m
     """
@@ -175,13 +174,16 @@ def _(response: SpinUpResponse) -> xr.Dataset:
 @_described.register
 def _(response: LinearResponse) -> xr.Dataset:
     """Over `time`, and `place` over `station` of points asked for."""
-    place = response.axis @ set_at(response.beam.setting_angle)[:, :2].T
     angle = response.spin_up.angle(response.time)
     return dataset(
         {
             "q": ("time", response.q, "tip displacement q, Eq. 16 [m]"),
             "angle": ("time", angle, "rotation angle θ [rad]"),
-            "place": (("time", "station", "direction"), place, "place in the clamp's frame [m]"),
+            "place": (
+                ("time", "station", "direction"),
+                response.axis,
+                "place in the clamp's frame [m]",
+            ),
         },
         {
             "time": (response.time, "time t [s]"),
@@ -204,20 +206,18 @@ def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
 
 
 def _root_loads(response: SpinUpResponse) -> dict[str, tuple[Any, str]]:
-    """Return tension, shear forces and moments with their labels, those of the plane or all.
+    """Return tension, shear forces and moments at the root with their labels.
 
-    In space by the clamp's axes, as of a run, not by those of its section, which may be set.
+    By the clamp's axes, as of a run, not by those of its section, which may be set.
     """
     found = response.section_loads([0.0])
-    force, moment = found.force[:, 0], found.moment[:, 0]
-    whole = response._model.in_space
-    if whole:
-        force, moment = ((found.section[:, 0] @ one[..., None])[..., 0] for one in (force, moment))
-    forces = [*zip("xyz", force.T, strict=True)][: 2 + whole]
-    about = [*zip("xyz", moment.T, strict=True)][0 if whole else 2 :]
+    kinds = ("force", "N", _FORCES, found.force), ("moment", "N m", _MOMENTS, found.moment)
     return {
-        **{f"root_force_{k}": (one, f"{_FORCES[k]} at the root [N]") for k, one in forces},
-        **{f"root_moment_{k}": (one, f"{_MOMENTS[k]} at the root [N m]") for k, one in about},
+        f"root_{kind}_{axis}": (column, f"{names[axis]} at the root [{unit}]")
+        for kind, unit, names, loads in kinds
+        for axis, column in zip(
+            "xyz", np.einsum("tij,tj->it", found.section[:, 0], loads[:, 0]), strict=True
+        )
     }
 
 

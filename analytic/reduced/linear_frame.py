@@ -12,6 +12,7 @@ dx added to K the same model has the blade's own frequencies.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -124,7 +125,9 @@ def linear_response(
         )
     coordinates = found.y[:_MODES, back].T
     across = coordinates @ (of.across.twice(along) @ modes).T
-    axis = np.stack(np.broadcast_arrays(along, across), axis=-1)
+    set_at = beam.setting_angle
+    places = along, math.cos(set_at) * across, math.sin(set_at) * across
+    axis = np.stack(np.broadcast_arrays(*places), axis=-1)
     return LinearResponse(
         beam=beam, spin_up=spin_up, foreshortening=foreshortening, time=time,
         q=beam.length * coordinates @ (of.tip @ modes), points=beam.length * along,

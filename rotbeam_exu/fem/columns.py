@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 
+from analytic import AnyBlade
 from analytic.arrays import FloatArray, few_at_once
 from analytic.exact.beam.kinematics import set_at
 from analytic.exact.beam.state import SectionLoads
@@ -24,6 +25,7 @@ from ..labels import dataset, labeled
 from ..lazily import xr
 from ..runs.shape import shape_of
 from .case import RunCase
+from .elements.formulation import Formulation
 from .mesh import Mesh
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
@@ -87,7 +89,7 @@ def columns(
         ),
         "axial_strain": (strain, "largest axial strain along the beam"),
     }  # fmt: skip
-    values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], frame)
+    values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], _to_clamp(model, beam))
     t, rate_dot = time / units.time, units.time**2 * case.rotation.acceleration(time)
     if setting != 1.0:
         across = _torque_across(built, setting, t, angle, coordinates, relative, rate, rate_dot)
@@ -122,26 +124,21 @@ def columns(
 
 
 def _clamp_loads(
-    case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, frame: FloatArray
+    case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, turn: FloatArray
 ) -> dict[str, tuple[FloatArray, str]]:
-    """Return what the blade exerts on the clamp, whose axes are `frame`, by the multipliers."""
+    """Return what the blade exerts on the clamp, by the multipliers; `turn` as of `_to_clamp`."""
     model, count = case.model, case.model.dimensions
     onto = np.zeros_like(root)
     onto[:, :count] = trajectory.multipliers[:, :count]
     if case.frame == "inertial":
         onto = model.turned(onto[:, None], -angle)[:, 0]
     onto += trajectory.multipliers[:, count:] @ model.held(trajectory.reference[0])
-    force, moment = onto[:, :count] @ frame, model.root_moment(root, onto)
-    if model.leaves_plane:
-        moment = moment @ frame
-    kinds = (
-        ("force", "N", "xyz"[:count], force),
-        ("moment", "N m", "xyz"[-moment.shape[1] :], moment),
-    )
+    force = onto[:, :count] @ np.eye(count, 3)
+    kinds = ("force", "N", force), ("moment", "N m", model.root_moment(root, onto))
     values = {
         f"root_{kind}_{axis}": (column, f"{kind} of the blade on the clamp, {axis} [{unit}]")
-        for kind, unit, axes, along in kinds
-        for axis, column in zip(axes, along.T, strict=True)
+        for kind, unit, loads in kinds
+        for axis, column in zip("xyz", turn @ loads.T, strict=True)
     }
     torque = -np.sum(onto * model.spun(root), axis=1)
     values["clamp_torque"] = torque, "torque of the clamp about the axis of rotation [N m]"
@@ -208,9 +205,10 @@ def section_loads(
         masses.loads(time[one], *(state[one] for state in states)) for one in few_at_once(time.size)
     ]
     place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
-    # A blade in its plane is set as a whole, one in space along its sections.
-    to_clamp = model.line_frame(built.beam).T if model.twists else set_at(beam.setting_angle)
+    to_clamp = _to_clamp(model, beam)
     place[..., 0] -= built.beam.hub_radius
+    if not model.leaves_plane:  # not computed: what holds the blade in its plane
+        force[..., 2] = moment[..., :2] = 0.0
     return SectionLoads(
         blade=beam,
         stations=beam.length * stations,
@@ -219,6 +217,14 @@ def section_loads(
         force=units.energy / units.length * force,
         moment=units.energy * moment,
     )
+
+
+def _to_clamp(model: Formulation, beam: AnyBlade) -> FloatArray:
+    """Return the rotation (3, 3) from the axes of the model to those of the clamp.
+
+    A blade in its plane is set as a whole, one in space along its sections.
+    """
+    return model.line_frame(beam).T if model.twists else set_at(beam.setting_angle)
 
 
 class _Masses:

@@ -103,12 +103,13 @@ def simulate(
         jacobi_energy = E - θ' L_z [J], clamp_residual [m], direction_residual [-], axial_strain
         [-] (largest along the beam). With loads or damping also supplied_energy [J]: the integral
         from t = 0 of -θ'' L_z, of the power of the loads and of what damping takes, by which
-        jacobi_energy changes. Forces of the clamp's constraints: root_force_x (tension),
-        root_force_y [N] and root_moment_z [N m] of the blade on the clamp, in the clamp's frame;
-        clamp_torque [N m] of the clamp on the blade about the axis of rotation. In space also
-        root_force_z, root_moment_x, root_moment_y; w [m] and w_dot [m/s] of the tip out of the
-        plane, normal to the clamp, whose frame the precone tilts; twist [rad] of the tip's section
-        about its normal; axis [m], the places of the nodes, (time, node, direction) in that frame.
+        jacobi_energy changes. Forces of the clamp's constraints: root_force_x (tension) to
+        root_force_z [N] and root_moment_x to root_moment_z [N m] of the blade on the clamp, in the
+        clamp's frame, zero out of the plane of bending of an element of the plane; clamp_torque
+        [N m] of the clamp on the blade about the axis of rotation. In space also w [m] and
+        w_dot [m/s] of the tip out of the plane, normal to the clamp, whose frame the precone tilts;
+        twist [rad] of the tip's section about its normal; axis [m], the places of the nodes,
+        (time, node, direction) in that frame.
         The attributes hold every input, versions, settings, wall time and the verdict.
         Whether planar motion so large is stable, `periodic_orbits(...).stable` computes.
 

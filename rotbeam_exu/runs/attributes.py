@@ -17,6 +17,8 @@ from analytic.theory import BERNOULLI_EULER, Theory
 
 from .. import __version__
 
+_UNKNOWN = "unknown: what is out of the plane of bending is not computed, and zero"
+
 
 def beam_of(attrs: Mapping[Any, Any]) -> AnyBlade:
     """Return the beam or blade that the attributes of a run describe."""
@@ -26,10 +28,14 @@ def beam_of(attrs: Mapping[Any, Any]) -> AnyBlade:
 
 
 def beam_attributes(beam: AnyBlade) -> dict[str, Any]:
-    """Return the attributes by which a run says which beam it is; `beam_of` reads them."""
+    """Return the attributes by which a run says which beam it is; `beam_of` reads them.
+
+    They say too if the section out of the plane of bending is not known.
+    """
+    known = {} if beam.blade.section.knows_space else {"section_out_of_plane": _UNKNOWN}
     if type(beam) is Beam:
-        return {f"beam_{field.name}": getattr(beam, field.name) for field in fields(Beam)}
-    return {"beam_length": beam.length, "blade": json.dumps(describe(beam))}
+        return {f"beam_{field.name}": getattr(beam, field.name) for field in fields(Beam)} | known
+    return {"beam_length": beam.length, "blade": json.dumps(describe(beam)), **known}
 
 
 def loads_of(attrs: Mapping[Any, Any]) -> tuple[Load, ...]:

@@ -31,7 +31,8 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     `section_axis` normal, chord (in the plane of bending) and thickness. By the same axes are
     `force` [N] and `moment` [N m] of the outboard on the inboard part, and `curvature` [1/m], the
     twist first. `strain` is that of the axis. Strains are what force and moment cause in the
-    elastic section. A steady state has no `time`.
+    elastic section. A steady state has no `time`. Where the section out of the plane of bending is
+    unknown, the attribute `section_out_of_plane` says so, and loads out of it are zero.
 
     Examples
     --------
@@ -42,16 +43,15 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     >>> print(dict(shape.sizes), outer_strain(shape, height=0.0367).max().round(5).item())
     {'time': 2, 'station': 3, 'direction': 3, 'section_axis': 3} 0.00428
     """
-    force, moment = found.force, found.moment
-    strains = _strains(found, force, moment)
+    strains = _strains(found)
     over = ("time", "station")[-found.place.ndim + 1 :]
     by_axis = (*over, "section_axis")
     return dataset(
         {
             "place": ((*over, "direction"), found.place, "place in the frame of the clamp [m]"),
             "section": ((*over, "direction", "section_axis"), found.section, "section's axes"),
-            "force": (by_axis, force, "force on the inboard part [N]"),
-            "moment": (by_axis, moment, "moment on the inboard part [N m]"),
+            "force": (by_axis, found.force, "force on the inboard part [N]"),
+            "moment": (by_axis, found.moment, "moment on the inboard part [N m]"),
             "strain": (over, strains[..., 0], "strain of the axis"),
             "curvature": (by_axis, strains[..., 3:], "elastic twist and curvatures [1/m]"),
         },
@@ -138,12 +138,12 @@ def _relative(blade: Blade, name: str, at: FloatArray) -> FloatArray:
     return np.asarray(side / side.max())
 
 
-def _strains(found: SectionLoads, force: FloatArray, moment: FloatArray) -> FloatArray:
+def _strains(found: SectionLoads) -> FloatArray:
     """Return ε, γ and κ [1/m], (..., stations, 6), that force and moment cause."""
     blade, EI, L = found.blade, found.blade.bending_stiffness, found.blade.length
     at, section = found.stations / L, blade.blade.section
     soft = _flexibility(blade.blade, at)
-    loads = np.concatenate((force * L**2 / EI, moment * L / EI), axis=-1)
+    loads = np.concatenate((found.force * L**2 / EI, found.moment * L / EI), axis=-1)
     shortening: Any = 0.0
     if found.trapeze and section.knows_space:
         # N acts on ε + ½k²(κ1² - κ01²): k²Nκ1 of the torque is its own.

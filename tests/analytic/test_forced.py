@@ -175,6 +175,14 @@ def test_bad_input_is_one_sentence(call, error, sentence):
         call()
 
 
+def test_a_steeply_set_blade_leans_on_the_backbone_of_its_plane():
+    """In the frame of the clamp its first mode is flap."""
+    blade = by_mass(0.2).with_setting_angle(1.2)
+    found = forced_response(blade, 1.0, TipForce(amplitude=1e-3), [3.0, 4.0], functions=8)
+    assert found.backbone.mode == "flap 1"
+    assert found.backbone.omega_n == pytest.approx(linear_modes(blade, 1.0, 1).frequencies[0])
+
+
 def test_what_does_not_excite_leaves_the_blade_at_rest():
     """A ripple of the speed has no force across a blade that flaps."""
     blade = by_mass(0.01).with_setting_angle(0.5 * np.pi)

@@ -114,9 +114,13 @@ def curve(blade, theory):
 
 
 def branch(blade, theory):
-    of = backbone(blade, SPEED, theory=theory)
-    found = of.branch(up_to=0.1)
+    found = backbone(blade, SPEED, theory=theory).branch(up_to=0.1)
     return {"type": type(found), "frequency": found.frequency[[0, -1]]}
+
+
+def path_of_orbits(blade, theory):
+    of = backbone(blade, SPEED, theory=theory)
+    return {"type": type(of), "names": (of.mode, of.name), "omega_n": of.omega_n}
 
 
 def response(blade, theory):
@@ -190,6 +194,7 @@ def test_orbits_in_all_limits_are_those_of_the_planar_blade(verb, limit):
         spin_up,
         diagram,
         loads_of_orbits,
+        path_of_orbits,
         pytest.param(branch, marks=NONE_YET),
     ],
 )

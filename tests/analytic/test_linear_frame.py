@@ -73,8 +73,22 @@ def test_the_axis_ends_at_the_tip_and_grows_longer(beam):
     assert np.all(response.axis[..., 0] == points)
     assert response.q[0] == response.q[1]
     assert linear_response(beam, spin_up, [0.0]).q.tolist() == [0.0]
-    lengths = np.hypot(*np.moveaxis(np.diff(response.axis, axis=1), -1, 0)).sum(axis=1)
+    lengths = np.linalg.norm(np.diff(response.axis, axis=1), axis=-1).sum(axis=1)
     assert np.all(lengths > 1.1 * beam.length)
+
+
+def test_places_are_in_the_frame_of_the_clamp_as_the_exact_ones(beam):
+    """Of a set blade: lag and flap by its angle, to what bending brings nearer to the axis."""
+    blade, motion, points = (
+        beam.with_setting_angle(0.7),
+        SpinUp(omega=1.0, ramp_time=4.0),
+        [3.0, 8.0],
+    )
+    linear = linear_response(blade, motion, [1.0, 2.0], points=points, foreshortening=True).axis
+    exact = spin_up_response(blade, motion, [1.0, 2.0], points=points, tolerance=1e-5).axis
+    assert linear.shape == exact.shape
+    size = np.abs(exact[..., 1:]).max()
+    assert linear[..., 1:] == pytest.approx(exact[..., 1:], abs=0.02 * size)
 
 
 def test_refuses(beam):

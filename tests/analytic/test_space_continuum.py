@@ -81,6 +81,8 @@ def test_in_the_plane_it_is_the_planar_beam_in_its_coordinates(shear):
     scale = np.abs(planar_force).max()
     assert force == pytest.approx(planar_force, abs=1e-10 * scale)
     assert moment == pytest.approx(planar_moment, abs=1e-10 * scale)
+    for one in (planar_force[..., 2], planar_moment[..., :2]):
+        assert not one.any()
 
 
 def test_loads_of_the_sections_are_those_of_their_strains():

@@ -1,6 +1,7 @@
 """Every kind of result as a Dataset and as tidy tables."""
 
 import inspect
+import math
 
 import numpy as np
 import pytest
@@ -201,6 +202,36 @@ def test_a_file_says_of_which_theory_and_load_an_answer_is(tmp_path):
         for key, value in told.items():
             assert attrs[key] == pytest.approx(value), name
         assert "extension" not in attrs
+
+
+def test_a_set_blade_has_the_loads_of_its_plane_in_the_axes_of_the_clamp():
+    """Tension, Q and M of the section at the root; the data say that nothing else is computed."""
+    blade, psi = BEAM.with_setting_angle(0.7), 0.7
+    found = spun(blade)
+    root, data = found.section_loads([0.0]), dataset_of(found)
+    (N, Q, none), M = root.force[:, 0].T, root.moment[:, 0, 2]
+    c, s = math.cos(psi), math.sin(psi)
+    expected = {
+        "root_force_x": N, "root_force_y": c * Q, "root_force_z": s * Q,
+        "root_moment_x": none, "root_moment_y": -s * M, "root_moment_z": c * M,
+    }  # fmt: skip
+    for name, component in expected.items():
+        np.testing.assert_allclose(data[name], component, atol=1e-14 * np.abs(M).max())
+    assert not none.any()
+    assert "not computed" in data.attrs["section_out_of_plane"]
+    assert "section_out_of_plane" not in dataset_of(spun(TWISTED)).attrs
+
+
+@pytest.mark.parametrize("result", ["SpinUpResponse", "SectionLoads"])
+def test_variables_and_dims_are_those_of_a_blade_in_space(result):
+    planar, in_space = (
+        {name: one.dims for name, one in dataset_of(of).variables.items()}
+        for of in (
+            (spun(one) if result == "SpinUpResponse" else spun(one).section_loads([0.0, 1.0]))
+            for one in (BEAM, TWISTED)
+        )
+    )
+    assert planar == in_space
 
 
 def test_root_loads_are_in_the_axes_of_the_clamp_as_a_run_s():

@@ -20,7 +20,6 @@ PLAIN = {
         "analytic.exact.free.stability_limit.StabilityLimit "
         "analytic.exact.driven.response.SpinUpResponse analytic.exact.free.backbone.Backbone "
         "analytic.exact.free.branches.BackboneBranch "
-        "analytic.exact.plane.growth.GrowthOutOfPlane "
         "analytic.exact.free.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam "
         "analytic.reduced.model.ReducedModel rotbeam_exu.runs.oscillation.SteadyOscillation"
     ),

@@ -82,10 +82,12 @@ class SectionLoads:
     section : ndarray (samples, stations, 3, 3)
         Axes of the sections, in columns, in the frame of `place`.
     force : ndarray (samples, stations, 3)
-        Tension N and shear forces along axes 2 and 3 [N]. A steady state has no samples.
+        Tension N, and shear forces along axes 2 and 3 [N].
     moment : ndarray (samples, stations, 3)
-        Torque, and moments about axes 2 (flap, of a blade set at zero) and 3 (lag) [N m]. In the
-        plane the bending moment M, EI times the curvature, is the third, and the others are zero.
+        Torque, and bending moments about axes 2 (flap, of a blade set at zero) and 3 (lag) [N m].
+        Of a blade that bends in one plane the shear force along axis 3, the torque and the moment
+        about axis 2 are zero; where its section out of this plane is unknown they are not
+        computed. A steady state has no samples.
     trapeze : bool
         Whether twist shortens the axis, as `Theory` has it, so that tension twists a section too.
 

@@ -15,6 +15,7 @@ from ...loads import Load
 from ...plotting import axes_or_new, draw_response
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpecialPoint
+from ..linear.modes import driven_modes
 
 if TYPE_CHECKING:
     from ...plotting import Axes
@@ -117,18 +118,16 @@ class ForcedResponse(Branch):
                 "backbone: take periodic_orbits at one of them"
             )
         blade, omega = undamped(self.beam), float(self.omega[0])
-        return backbone(blade, omega, theory=self.theory, **self._leans_on())
+        mode = f"{self.gauge} 1"
+        if not self.nondimensional[0].system.model.in_space:
+            # Set steeply, a blade in its plane of bending has modes of flap.
+            (mode,) = driven_modes(blade, omega, theory=self.theory).names
+        return backbone(blade, omega, mode, theory=self.theory)
 
     @property
     def gauge(self) -> Literal["lag", "flap"]:
         """Place of the tip whose greatest deflection is the amplitude."""
         return "flap" if self.nondimensional[0].system.steady.direction[2] else "lag"
-
-    def _leans_on(self) -> dict[str, Any]:
-        """Return the mode and the gauge of the backbone."""
-        if not self.nondimensional[0].system.model.in_space:
-            return {}
-        return {"mode": f"{self.gauge} 1"}
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.

@@ -19,9 +19,9 @@ from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.state import SectionLoads, in_newtons
-from ..beam.steady import blade_continuum, steady_rotation
+from ..beam.steady import blade_continuum
 from ..space.modes import flap_shape
-from ..space.steady import lives_in_space, require_bent, space_continuum, space_rotation
+from ..space.steady import lives_in_space, require_bent, rotating_blade, space_continuum
 from .transient import drive, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -190,7 +190,6 @@ def spin_up_response(
             "them out"
         )
     space = lives_in_space(beam, loads) or bool(kick or bent)
-    turning: Any = space_rotation if space else steady_rotation
     coarser, error, size = None, math.inf, 0.0
     fewest = math.ceil(_A_DIGIT * digits)
     # The kinks of a table leave an algebraic tail.
@@ -201,10 +200,10 @@ def spin_up_response(
             space_continuum(beam, theory, functions) if space
             else blade_continuum(beam, theory, functions, functions // 2)
         )  # fmt: skip
-        turning(beam, highest, model)  # refuses a speed that tears the blade
+        rotating_blade(beam, highest, model)  # refuses a speed that tears the blade
         corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
         grid = grid_of(corners, counts)
-        q = turning(beam, spin_up.start, model).equilibrium
+        q = rotating_blade(beam, spin_up.start, model).equilibrium
         if bent:
             q = q + bent * flap_shape(model)
         q_dot = model.struck(kick / (beam.length * beam.frequency_scale)) if kick else 0.0

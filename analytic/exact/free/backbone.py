@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade, require_undamped, warn_if_rpm
@@ -14,8 +13,8 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..beam.steady import resolved_model
 from ..linear.modes import mode_name
-from ..space.modes import DIRECTIONS, orbit_modes
-from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
+from ..space.modes import DIRECTIONS
+from ..space.steady import lives_in_space, space_continuum
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
 from .leaving import LeavingBranch, leaving_branch
@@ -30,7 +29,9 @@ class Backbone(ModePath):
     """Free orbits of the exact beam that grow out of one mode at one speed; made by `backbone`.
 
     It has the beam, omega, mode and theory that are given, computes when it is asked, and keeps its
-    path of orbits.
+    path of orbits. In space these are half a Fourier series where time reversal maps the blade onto
+    itself and the gauge is odd, a full one elsewhere: with twist and precone, or with precone and
+    flap.
     """
 
     @one_thread
@@ -58,6 +59,8 @@ class Backbone(ModePath):
 
         Raises
         ------
+        ValueError
+            If the orbits are not in the plane: tongues are followed there only.
         AmplitudeNotReachedError
             If no orbit grows out of the mode.
 
@@ -69,6 +72,10 @@ class Backbone(ModePath):
         ...     print(f"harmonic {one.harmonic} meets {one.mode} at a = {one.amplitude:.4f}")
         harmonic 16 meets lag 3 at a = 0.1269
         """
+        self._require_plane(
+            "internal resonances are followed for planar blades only: take orbits, which end or "
+            "warn near one"
+        )
         return followed_branch(self, peak_deflection("up_to", up_to))
 
     @one_thread
@@ -94,7 +101,8 @@ class Backbone(ModePath):
         Raises
         ------
         ValueError
-            If nothing leaves the plane between them, or the section out of it is not known.
+            If nothing leaves the plane between them, the section out of it is not known, or the
+            orbits are not in a plane.
 
         Examples
         --------
@@ -104,6 +112,7 @@ class Backbone(ModePath):
         >>> print(f"{found.born.amplitude:.6f}")
         0.007719
         """
+        self._require_plane("orbits in space have no plane to leave: take those of lag")
         low, high = peak_deflection("low", low), peak_deflection("high", high)
         if not low < high:
             raise ValueError(f"low must be below high, got {low:g} and {high:g}")
@@ -111,53 +120,9 @@ class Backbone(ModePath):
             raise ValueError(f"periods must be 1 or 2, got {periods}")
         return leaving_branch(self, low, high, periods, whole_number("points", points))
 
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class SpaceBackbone(Backbone):
-    """Free orbits of a blade in space that grow out of one mode; made by `backbone`.
-
-    By half a Fourier series where time reversal maps the blade onto itself and the gauge is odd,
-    by a full one elsewhere: with twist and precone, or with precone and flap.
-
-    Attributes
-    ----------
-    gauge : {"lag", "flap"}
-        Place of the tip whose peak is the amplitude.
-    """
-
-    gauge: str
-
-    at_resonance: ClassVar[str] = "several orbits may have one amplitude there"
-
-    def branch(self, up_to: float = 0.9) -> BackboneBranch:
-        """Refuse: tongues are followed in the plane only."""
-        raise ValueError(
-            "internal resonances are followed for planar blades only: take orbits, which end or "
-            "warn near one"
-        )
-
-    def leaving(
-        self, low: float, high: float, *, periods: int = 1, points: int = 30
-    ) -> LeavingBranch:
-        """Refuse: orbits in space have no plane to leave."""
-        raise ValueError("orbits in space have no plane to leave: take those of lag")
-
-    def softening(self) -> tuple[float, float]:
-        """Return λ_ω, extrapolated from three small orbits, and what the third changed.
-
-        Near a pole, as where lag meets twice the flap, it changes fast with the amplitude.
-        """
-        small = self.path.seed.amplitude
-        third = self.path.at(3.0 * small)
-        first, second, last = self._softenings(self.path.seed, self.path.double, third)
-        value = 1.5 * first - 0.6 * second + 0.1 * last
-        return value, abs(value - (4.0 * first - second) / 3.0)
-
-    def _rotation(self) -> SpaceBlade:
-        return space_rotation(self.beam, self.omega, self.model)
-
-    def _solved(self, steady: SpaceBlade) -> tuple[SpaceBlade, FloatArray, Any, tuple[str, ...]]:
-        return orbit_modes(steady, self.gauge)
+    def _require_plane(self, sentence: str) -> None:
+        if self.model.in_space:
+            raise ValueError(sentence)
 
 
 def backbone(
@@ -213,10 +178,8 @@ def backbone(
     out_of_plane = family == "flap" and beam.blade.section.knows_space
     if lives_in_space(beam) or out_of_plane:
         in_space = space_continuum(beam, theory, max(functions // 2, 2 * int(number) + 2))
-        return SpaceBackbone(
-            beam=beam, omega=omega, mode=name, theory=theory, model=in_space,
-            gauge=family, care=Care(tail=in_space.functions.blade.tail),
-        )  # fmt: skip
+        care = Care(tail=in_space.functions.blade.tail)
+        return Backbone(beam=beam, omega=omega, mode=name, theory=theory, model=in_space, care=care)
     require_undamped(beam, _NO_FREE_ORBITS)
     model = resolved_model(beam, int(number), theory, functions)
     return Backbone(beam=beam, omega=omega, mode=name, theory=theory, model=model)

@@ -218,7 +218,7 @@ class OrbitSet:
         >>> print(orbits.stable, orbits.covers)
         [ True False] all directions
         >>> print(orbits.out_of_plane(damping=0.005).modes[1])
-        ('flap 1', 'torsion 1')
+        ('flap 4', 'flap 5')
         """
         if self._in_space:
             raise ValueError(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 from ...arrays import FloatArray
 from ...beam import AnyBlade
@@ -21,8 +21,10 @@ from ...methods.harmonic_balance import LastTangent, solve
 from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.steady import SteadyBeam, solve_modes, steady_rotation
+from ..beam.steady import SteadyBeam, solve_modes
 from ..linear.modes import names_in_plane
+from ..space.modes import orbit_modes
+from ..space.steady import rotating_blade
 
 _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
 
@@ -49,8 +51,6 @@ def place_of(mode: str, names: Sequence[str]) -> int:
 class ModePath:
     """Free orbits out of one mode, computed as far as they are needed; base of `Backbone`."""
 
-    at_resonance: ClassVar[str] = "use backbone(...).branch to follow the branches"
-
     beam: AnyBlade
     omega: float
     mode: str = "lag 1"
@@ -62,6 +62,13 @@ class ModePath:
     def name(self) -> str:
         """Its name in a sentence."""
         return f"{self.mode} at omega = {self.omega:g} rad/s"
+
+    @property
+    def at_resonance(self) -> str:
+        """Advice where several orbits may have one amplitude."""
+        if self.model.in_space:
+            return "several orbits may have one amplitude there"
+        return "use backbone(...).branch to follow the branches"
 
     @property
     def omega_n(self) -> float:
@@ -88,29 +95,37 @@ class ModePath:
         """Orbits by their amplitude, computed as far as they are needed."""
         return self._begun[2]
 
-    def _rotation(self) -> Any:
-        """Return the system of the model."""
-        return steady_rotation(self.beam, self.omega, self.model)
-
     def _solved(self, steady: Any) -> tuple[Any, FloatArray, Any, tuple[str, ...]]:
         """Return the system; frequencies, shapes with odd coordinates in the sine, and names."""
+        if self.model.in_space:
+            return orbit_modes(steady, self.mode.split()[0])
         modes = solve_modes(steady)
         names = names_in_plane(steady, modes, self.beam.setting_angle)
         return steady, modes.frequencies, modes.coordinates, names
 
     def softening(self) -> tuple[float, float]:
-        """Return λ_ω, extrapolated from the two smallest orbits, and what that changed."""
-        near, far = self._softenings(self.path.seed, self.path.double)
-        return (4.0 * near - far) / 3.0, abs(near - far) / 3.0
+        """Return λ_ω, extrapolated from the smallest orbits, and what the last of them changed.
 
-    def _softenings(self, *orbits: Orbit[Any]) -> list[float]:
+        From two; in space, where it changes fast with the amplitude near a pole, as that of lag
+        that meets twice the flap, from three.
+        """
+        near, far = self._softening(self.path.seed), self._softening(self.path.double)
+        by_two = (4.0 * near - far) / 3.0
+        if not self.model.in_space:
+            return by_two, abs(near - far) / 3.0
+        third = self._softening(self.path.at(3.0 * self.path.seed.amplitude))
+        by_three = 1.5 * near - 0.6 * far + 0.1 * third
+        return by_three, abs(by_three - by_two)
+
+    def _softening(self, orbit: Orbit[Any]) -> float:
         linear = float(self.modes[self.place])
-        return [float((1.0 - one.frequency / linear) / one.amplitude**2) for one in orbits]
+        return float((1.0 - orbit.frequency / linear) / orbit.amplitude**2)
 
     @cached_property
     def _begun(self) -> tuple[FloatArray, tuple[str, ...], Path[SteadyBeam]]:
         """The modes and the path, with as many functions as its smallest orbits need."""
-        steady, number = self._rotation(), int(self.mode.split()[1])
+        steady = rotating_blade(self.beam, self.omega, self.model)
+        number = int(self.mode.split()[1])
         small, near = 0.02 / number**2, "2 or 3 times its frequency may be that of another mode"
         while True:
             (steady, frequencies, shapes, names), tangent = self._solved(steady), LastTangent()

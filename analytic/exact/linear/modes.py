@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -34,7 +33,7 @@ from ..space.modes import (
     space_modes,
     space_modes_on,
 )
-from ..space.steady import lives_in_space, space_rotation
+from ..space.steady import lives_in_space, rotating_blade
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
@@ -244,8 +243,7 @@ def damping_ratios(
     """
     omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
     modes = driven_modes(beam, omega, count, theory=theory, functions=max(20, 2 * count))
-    rotation: Any = space_rotation if lives_in_space(beam) else steady_rotation
-    steady = rotation(beam, omega, modes.model)
+    steady = rotating_blade(beam, omega, modes.model)
     at_rest = np.zeros((1, steady.size))
     tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
     inverse = inverse_eigenvalues(tangent.mass[0], tangent.damping[0], tangent.stiffness[0])

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
 from ..beam.state import Driven
-from ..beam.steady import AtConstantRate, require_shear
+from ..beam.steady import AtConstantRate, require_shear, steady_rotation
 from .basis import StrainFunctions
 from .continuum import SpaceContinuum
 from .unit import space_unit
@@ -236,3 +236,8 @@ def space_rotation(beam: AnyBlade, omega: float, model: SpaceContinuum) -> Space
     if model.functions.theory.extension:
         require_steady_state(beam, omega)
     return SpaceBlade(model, omega / beam.frequency_scale)
+
+
+def rotating_blade(beam: AnyBlade, omega: float, model: Any) -> Any:
+    """Return the blade in steady rotation at ω [rad/s], in its plane or in space as the model."""
+    return (space_rotation if model.in_space else steady_rotation)(beam, omega, model)

@@ -212,13 +212,13 @@ class Formulation(Described, abstract=True):
         """Add the inertial forces of the rotating frame on coordinates without constant mass."""
 
     def root_moment(self, root: FloatArray, force: FloatArray) -> FloatArray:
-        """Return the moment about the root of a force on its coordinates, both (samples, n).
+        """Return the moment (samples, 3) about the root of a force on its coordinates.
 
-        About z, (samples, 1), in space about all axes, (samples, 3).
+        Both (samples, n). Here of nodes in the plane, about z.
         """
         turning = slice(self.dimensions, None)
-        about_z = np.sum(self.spun(root)[:, turning] * force[:, turning], axis=1, keepdims=True)
-        return np.asarray(about_z)
+        about_z = np.sum(self.spun(root)[:, turning] * force[:, turning], axis=1)
+        return np.asarray(about_z[:, None] * [0.0, 0.0, 1.0])
 
     def sections(self, coordinates: FloatArray) -> FloatArray:
         """Return the axes of the sections in columns, (..., 3, 3), of coordinates (..., n).
