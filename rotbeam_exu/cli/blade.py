@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 from .job import Flag
 from .motion import configured
 from .output import bar, formatted, print_columns, print_line, print_note
+
+if TYPE_CHECKING:
+    from analytic.exact.space.modes import LinearModes
 
 _COUNT = 6  # modes
 
@@ -48,11 +51,11 @@ def blade(*, shear: Flag = False, config: Path | None = None) -> None:
         turning = {}
         if omega:
             modes = analytic.linear_modes(beam, omega, _COUNT, theory=theory)
-            turning[f"at {omega:g} rad/s [Hz]"] = modes.frequencies / (2.0 * np.pi)
+            turning[f"at {omega:g} rad/s [Hz]"] = _named(modes, rest) / (2.0 * np.pi)
         section, others = beam.section, {}
         if isinstance(section, StationSection):
             (way,) = set(get_args(Interpolation)) - {section.interpolation}
-            others[way] = _changes(beam, section, way, theory, rest.frequencies)
+            others[way] = _changes(beam, section, way, theory, rest)
     place, mass = beam.unit.inertia(32)
     moment = float(place @ mass) * beam.mass_per_length * beam.length**2
     print_line("length", f"{beam.length:g} m, on a hub of {beam.hub_radius:g} m")
@@ -62,7 +65,7 @@ def blade(*, shear: Flag = False, config: Path | None = None) -> None:
     _print_section(beam)
     print_columns(
         {
-            "mode": list(map(str, range(1, rest.frequencies.size + 1))),
+            "mode": list(rest.names),
             "at rest [Hz]": formatted(rest.frequencies / (2.0 * np.pi), ".6f"),
             "[rad/s]": formatted(rest.frequencies, ".6f"),
             **{title: formatted(values, ".6f") for title, values in turning.items()},
@@ -78,15 +81,21 @@ def blade(*, shear: Flag = False, config: Path | None = None) -> None:
 
 
 def _changes(
-    beam: Blade, section: StationSection, way: Interpolation, theory: Theory, known: FloatArray
+    beam: Blade, section: StationSection, way: Interpolation, theory: Theory, rest: LinearModes
 ) -> FloatArray:
     """Return the relative changes of frequencies [%] with the other interpolation."""
     other = replace(beam, section=replace(section, interpolation=way))
     try:
-        found = analytic.linear_modes(other, 0.0, known.size, theory=theory).frequencies
+        modes = analytic.linear_modes(other, 0.0, _COUNT, theory=theory)
     except ValueError:  # it did not settle
-        return np.full_like(known, np.nan)
-    return 100.0 * (found / known - 1.0)
+        return np.full_like(rest.frequencies, np.nan)
+    return 100.0 * (_named(modes, rest) / rest.frequencies - 1.0)
+
+
+def _named(modes: LinearModes, like: LinearModes) -> FloatArray:
+    """Return the frequencies of the modes that have the names of others, NaN for none."""
+    frequencies = dict(zip(modes.names, modes.frequencies.tolist(), strict=True))
+    return np.array([frequencies.get(name, np.nan) for name in like.names])
 
 
 def _print_section(beam: Blade) -> None:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from analytic import Beam, Rectangle
+from analytic import Beam, Rectangle, Theory
 from analytic.exact.free.planar_orbits import planar_orbits
 from analytic.exact.free.stability_limit import _limit
 from analytic.exact.plane.growth import GROWTH, Growth
@@ -15,7 +15,8 @@ from analytic.methods.newton import NoOrbitError
 class Orbits:
     """Orbits of which `per_radian(a, finer)` tells the growth; none is larger than `end`."""
 
-    blade, omega, mode, damping, damped = None, 2.0, 1, 0.0, False
+    blade, omega, mode, damping, damped = None, 2.0, "lag 1", 0.0, False
+    theory = Theory()
 
     def __init__(self, per_radian, end=1.0):
         self.per_radian, self.end, self.asked = per_radian, end, []

@@ -317,7 +317,9 @@ def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam, inertia):
     of = dict(zip(names, frequencies * blade.frequency_scale, strict=True))
     for plane in ("flap", "torsion"):
         known = linear_modes(blade, 4.0, 2, only=plane).frequencies
-        assert [of[f"{plane} 1"], of[f"{plane} 2"]] == pytest.approx(known, rel=1e-8)
+        # The Hill equation leaves out the inertia of sections that turn with the slope of flap.
+        within = 1e-5 if inertia and plane == "flap" else 1e-8
+        assert [of[f"{plane} 1"], of[f"{plane} 2"]] == pytest.approx(known, rel=within)
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from typing import get_args
 import pytest
 
 import analytic
+from rotbeam_exu import comparison
 from rotbeam_exu.cli import _COMMANDS, animate, app
 from rotbeam_exu.cli.job import Results
 from rotbeam_exu.fem.elements import FORMULATIONS
@@ -86,7 +87,7 @@ def test_a_command_uses_or_names_all_of_a_table(call, tmp_path, monkeypatch, com
     monkeypatch.setattr(room, "configured", noted)
     for place, name in (
         (Results, "job"), (analytic, "campbell"), (analytic, "reduced_model"),
-        (animate, "spin_up_response"), (verify, "verify"),
+        (animate, "spin_up_response"), (verify, "verify"), (comparison, "figure_14"),
     ):  # fmt: skip
         monkeypatch.setattr(place, name, stopped)
     monkeypatch.chdir(tmp_path)

@@ -94,7 +94,7 @@ def test_a_blade_with_all_there_is_follows_the_exact_one(beam):
 def test_an_orbit_stays_the_orbit_and_keeps_its_jacobi_energy(beam):
     """The Euler force bends a blade near flap hardly: an orbit is what sets it in motion."""
     blade, omega = beam.with_hub_radius(0.8).with_tip_mass(0.5).with_setting_angle(1.2), 3.0
-    orbit = periodic_orbits(blade, omega, [0.2])
+    orbit = periodic_orbits(blade, omega, [0.2], mode="flap 1")
     run = simulate(
         blade, SteadyRotation(omega=omega), elements=16, duration=3.0, step=1e-3, frame="rotating",
         initial_state=lambda x: orbit.state(0, x),

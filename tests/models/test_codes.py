@@ -187,7 +187,7 @@ def test_a_folder_is_replaced_whole_or_not_at_all(tmp_path, monkeypatch):
 
 def test_scripts_are_short_and_all_tested():
     scripts = {path.stem: path.read_text(encoding="utf-8") for path in CODES.parent.glob("*.py")}
-    long = [name for name, text in scripts.items() if len(text.splitlines()) >= 55]
+    long = [name for name, text in scripts.items() if len(text.splitlines()) >= 60]
     assert long == ["is_it_planar"]  # four pictures
     tests = Path(__file__).with_name("test_gallery.py").read_text(encoding="utf-8")
     untested = [name for name in scripts if not re.search(rf'"{name}(\.py)?"', tests)]

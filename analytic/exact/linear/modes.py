@@ -110,6 +110,7 @@ def driven_modes(
 
     Those of the plane of bending of a planar blade, and all of others.
     """
+    warn_if_rpm(beam, rotation_speed(omega))
     if lives_in_space(beam):
         return space_modes(beam, omega, count, theory)
     return _modes_in_plane(beam, omega, count, theory, functions, None)
