@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_bvp
 
 from analytic import Beam, Rectangle, Theory, backbone, periodic_orbits
-from analytic.exact.plane.growth import planar_orbits
+from analytic.exact.free.planar_orbits import planar_orbits
 from analytic.methods.collocation import radau
 from analytic.methods.newton import Newton
 from analytic.threads import one_thread
