@@ -8,11 +8,10 @@ from .exact.free.backbone import backbone as backbone
 from .exact.free.backbone import backbone_curve as backbone_curve
 from .exact.free.backbone import periodic_orbits as periodic_orbits
 from .exact.free.path import AmplitudeNotReachedError as AmplitudeNotReachedError
+from .exact.free.stability_limit import stability_limit as stability_limit
 from .exact.linear.campbell import campbell as campbell
 from .exact.linear.modes import damping_ratios as damping_ratios
 from .exact.linear.modes import linear_modes as linear_modes
-from .exact.plane.planarity import planar_stability as planar_stability
-from .exact.plane.stability_limit import stability_limit as stability_limit
 from .exact.space.steady_state import steady_state as steady_state
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity

@@ -258,6 +258,12 @@ def require_out_of_plane(
             "whether the plane is stable, and it is unknown: give torsion_ratio, math.inf for a "
             "section that does not twist"
         )
+    twists = torsion and known.torsion_ratio != math.inf and known.bending_ratio != 1.0
+    if twists and blade.section.rotary_inertia == 0.0:
+        raise ValueError(
+            "motion out of the plane is not known for a twist without inertia: give the "
+            "section a rotary_inertia above zero, or leave it out for a homogeneous one"
+        )
     return known
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.animation import FFMpegWriter
 
 import analytic
-from analytic import Beam, Rectangle, SpinUp, Tube, backbone, planar_stability, stability_limit
+from analytic import Beam, Rectangle, SpinUp, Tube, backbone, periodic_orbits, stability_limit
 from rotbeam_exu import comparison, figures, kicked, simulate
 
 FILM = "html5" if FFMpegWriter.isAvailable() else "jshtml"
@@ -34,7 +34,7 @@ _ = ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
 # %%
 # The limit at a speed, and the tube where the spin-ups to 4 rad/s end:
 limit = stability_limit(strip, 4.0, damping=0.005, largest=0.1)
-round_one = planar_stability(tube, 4.0, ends[4.0])
+round_one = periodic_orbits(tube, 4.0, ends[4.0]).out_of_plane()
 print(limit, round_one, sep="\n")
 
 # %%
@@ -52,7 +52,9 @@ for ax, branch, title in zip(axes, branches, titles, strict=True):
     print(branch)
     branch.plot(ax)
     top = 1.8 * branch.born.amplitude
-    planar = planar_stability(branch.beam, branch.omega, np.linspace(0.0, top, 24)[1:])
+    planar = periodic_orbits(
+        branch.beam, branch.omega, np.linspace(0.0, top, 24)[1:]
+    ).out_of_plane()
     for part, look in ((planar.stable, "k-"), (~planar.stable, "k--")):
         ax.plot(np.where(part, planar.frequency, np.nan), planar.amplitude, look)
     ax.set_title(title, loc="left")

@@ -47,7 +47,7 @@ def dataset_of(*results: Any) -> xr.Dataset:
     ----------
     *results
         Of any function of `analytic` that returns more than an array, or of this package; several
-        that belong together, as a PlanarStability and its StabilityLimit. A spin-up has its root
+        that belong together, as a GrowthOutOfPlane and its StabilityLimit. A spin-up has its root
         loads, the names of a run by `simulate`, and of points asked for what
         `rotbeam_exu.runs.shape.shape_of` has; a forced response its stability and backbone.
 
@@ -223,18 +223,13 @@ def _root_loads(response: SpinUpResponse) -> dict[str, tuple[Any, str]]:
 
 @_described.register
 def _(response: ForcedResponse) -> xr.Dataset:
-    """Return `_curve`; in the plane, where the section is known, what grows out of it."""
+    """Return `_curve`, the directions of `stable`, and where known what grows out of the plane."""
     data = _curve(response)
-    if response.nondimensional[0].system.model.in_space:
-        data["stable"].attrs["long_name"] = "whether disturbances decay"
-        return data
-    if response.beam.blade.section.out_of_plane is None:
-        return data
-    try:
-        found = response.out_of_plane(confirm=False)
-    except ValueError as unknown:
-        reason = f"Whether the response stays in its plane is not known: {unknown}"
-        return data.assign_attrs(planar=reason)
+    data = data.assign_attrs(stable_covers=response.covers)
+    if (found := response._growth) is None:
+        if response.beam.blade.section.out_of_plane is None or response._in_space:
+            return data
+        return data.assign_attrs(planar=f"Stability is about {response.covers}")
     growth = {
         "growth_rate": ("point", found.growth_rate, GROWTH),
         "kind": ("point", list(found.kind), "how it grows"),
@@ -257,7 +252,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
         "frequency": ("point", response.frequency, f"{swept} [rad/s]"),
         "amplitude": ("point", response.amplitude, "amplitude |q|/L"),
         "phase": ("point", response.phase, phase),
-        "stable": ("point", response.stable, "whether disturbances in the plane decay"),
+        "stable": ("point", response.stable, "whether disturbances decay"),
         "mark": ("point", _marks(response), "what is special about the point"),
         "cosine": (harmonics, response.harmonics.real, "q/L over cos kφ"),
         "sine": (harmonics, -response.harmonics.imag, "q/L over sin kφ"),

@@ -15,9 +15,9 @@ from analytic.exact.free.branches import BackboneBranch
 from analytic.exact.free.curve import BackboneCurve
 from analytic.exact.free.leaving import LeavingBranch
 from analytic.exact.free.orbits import Orbits
+from analytic.exact.free.stability_limit import StabilityLimit
 from analytic.exact.linear.campbell import Campbell
-from analytic.exact.plane.planarity import PlanarStability
-from analytic.exact.plane.stability_limit import StabilityLimit
+from analytic.exact.plane.growth import GrowthOutOfPlane
 from analytic.exact.space.modes import FAMILIES, LinearModes
 from analytic.exact.space.steady_state import SteadyState
 from analytic.reduced.tables import PaperTable
@@ -141,7 +141,7 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
         | _columns("harmonic", harmonics="amplitude of the harmonic over L"),
         "", ("cycles",),
     ),
-    PlanarStability: (
+    GrowthOutOfPlane: (
         {
             "a": _own("amplitude", "a", ORBIT),
             "growth_rate": _own("growth_rate", "a", GROWTH),

@@ -72,9 +72,9 @@ GROUPS = (
     _group(
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
-        analytic="planar_stability stability_limit",
-        analytic__exact__plane__planarity="GrowthOutOfPlane PlanarStability",
-        analytic__exact__plane__stability_limit="StabilityLimit Tongue",
+        analytic="stability_limit",
+        analytic__exact__plane__growth="GrowthOutOfPlane",
+        analytic__exact__free__stability_limit="StabilityLimit Tongue",
     ),
     _group(
         "Reduced models",

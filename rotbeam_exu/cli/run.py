@@ -141,8 +141,6 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
     print_line("largest root moment", f"{largest:.6g} N m")
     print_line("constraint residual", f"{worst:.2g} (worst)")
     print_line("energy drift", f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy")
-    if "out_of_plane" in data.attrs:
-        print_line("plane", data.attrs["out_of_plane"])
     print_line("wall time", f"{data.attrs['wall_time']:.2f} s")
     print_line("verdict", found.sentence)
 

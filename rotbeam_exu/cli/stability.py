@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import analytic
-from analytic.beam import require_planar
+from analytic.beam import require_planar, undamped
 from analytic.input_checks import not_negative
 
 from ..files.result_tables import parts
@@ -28,8 +28,8 @@ from .options import (
 from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
-    from analytic.exact.plane.planarity import PlanarStability
-    from analytic.exact.plane.stability_limit import StabilityLimit
+    from analytic.exact.free.stability_limit import StabilityLimit
+    from analytic.exact.plane.growth import GrowthOutOfPlane
 
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
@@ -86,10 +86,11 @@ def stability(
     inputs |= {"damping_ratio": damping_ratio, **theory_attributes(law)}
     how: Any = {"damping": damping_ratio, "theory": law}
 
-    def computed() -> tuple[PlanarStability, StabilityLimit, xr.Dataset]:
+    def computed() -> tuple[GrowthOutOfPlane, StabilityLimit, xr.Dataset]:
         with bar("growth out of the plane"):
-            found = analytic.planar_stability(blade, omega, amplitudes, mode, **how)
             limit = analytic.stability_limit(blade, omega, mode, largest=amplitudes[-1], **how)
+            orbits = analytic.periodic_orbits(undamped(blade), omega, amplitudes, mode, theory=law)
+            found = orbits.out_of_plane(damping_ratio, blade_damping=blade.damping)
         return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 
     results.job(
@@ -100,7 +101,7 @@ def stability(
     )  # fmt: skip
 
 
-def _print(found: PlanarStability, limit: StabilityLimit) -> None:
+def _print(found: GrowthOutOfPlane, limit: StabilityLimit) -> None:
     print_text(f"{limit}.")
     rate = np.where(found.growth_rate == 0.0, np.nan, found.growth_rate)
     print_columns(

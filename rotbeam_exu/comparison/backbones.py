@@ -9,7 +9,6 @@ import numpy as np
 from numpy.linalg import norm
 
 from analytic import Beam, periodic_orbits, reduced_model
-from analytic.exact.plane.growth import planar_note
 
 from ..labels import AMPLITUDE, OMEGA, dataset, labeled
 from ..lazily import xr
@@ -169,20 +168,16 @@ def figure_14(
         `linear_frequency` ω_n [rad/s] over (model, omega); amplitude, ratio and their errors over
         (mesh, omega, ramp_time). Every amplitude is the peak of |q|/L; Eq. 63 is taken at its first
         harmonic. `as_printed` is Eq. 63 with a itself for the first harmonic, as the paper draws
-        it. The attribute `out_of_plane` is there if the
-        section of a blade is known to leave the plane, and says at which speeds from which
-        amplitudes on.
+        it.
     """
     beam = beam or Beam.reference()
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, **options}
     by_mesh = [finite_element_points(beam, mesh, **grid) for mesh in meshes]
     points = xr.concat(by_mesh, dim="mesh")
     points["mesh"] = ("mesh", list(meshes), labeled("finite element mesh"))
-    data = points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(
+    return points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(
         mesh="", meshes="; ".join(one.attrs["meshes"] for one in by_mesh)
     )
-    notes = [planar_note(beam, omega, max(amplitudes)) for omega in omegas]
-    return data.assign_attrs(out_of_plane="; ".join(filter(None, notes))) if any(notes) else data
 
 
 def backbones(beam: Beam, omegas: Sequence[float], amplitudes: Sequence[float]) -> xr.Dataset:

@@ -19,8 +19,8 @@ from analytic import (
 )
 from analytic.arrays import FloatArray
 from analytic.description import describe
+from analytic.exact.free.planar_orbits import growth_rates
 from analytic.exact.linear.modes import driven_modes
-from analytic.exact.plane.planarity import growth_rates
 from analytic.input_checks import finite_values, positive, whole_number
 from analytic.reduced.any_blade import blade_oscillator
 

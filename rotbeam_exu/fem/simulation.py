@@ -16,7 +16,6 @@ from analytic.arrays import FloatArray
 from analytic.beam import require_planar, warn_if_rpm
 from analytic.exact.beam.state import BeamState, straight_state
 from analytic.exact.beam.steady import stretched_state
-from analytic.exact.plane.growth import planar_note
 from analytic.exact.space.steady import require_bent
 from analytic.input_checks import points_of_beam
 from analytic.lazily import integrate, interpolate
@@ -112,8 +111,7 @@ def simulate(
         twist [rad] of the tip's section about its normal; axis [m], the places of the nodes,
         (time, node, direction) in that frame.
         The attributes hold every input, versions, settings, wall time and the verdict.
-        `out_of_plane` is there if the section out of the plane
-        is known and planar orbits as large as the motion after the ramp leave the plane.
+        Whether planar motion so large is stable, `periodic_orbits(...).stable` computes.
 
     Raises
     ------
@@ -181,13 +179,7 @@ def run_case(
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
     }
-    run = _checked(run, cause)
-    if model.leaves_plane:
-        return run  # shows by itself whether it does
-    steady = run["q"].to_numpy()[run["time"].to_numpy() >= case.ramp_time]
-    if note := planar_note(case.beam, case.omega, 0.5 * float(np.ptp(steady)) / case.beam.length):
-        run.attrs["out_of_plane"] = note
-    return run
+    return _checked(run, cause)
 
 
 def _start(

@@ -56,7 +56,7 @@ def caption(number: int, data: xr.Dataset) -> str:
     """
     figure = PAPER_FIGURES[number]
     claim = figure.claim if _of_paper(data) else ""
-    words = " ".join([figure.shows(data), _beam(data), claim, data.attrs.get("out_of_plane", "")])
+    words = " ".join([figure.shows(data), _beam(data), claim])
     return typeset(" ".join(words.split()))
 
 

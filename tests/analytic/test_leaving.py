@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
 
-from analytic import Beam, Rectangle, Theory, backbone, planar_stability
-from analytic.exact.plane.growth import planar_orbits
+from analytic import Beam, Rectangle, Theory, backbone, periodic_orbits
+from analytic.exact.free.planar_orbits import planar_orbits
 from analytic.methods.collocation import radau
 from analytic.methods.newton import Newton
 from analytic.threads import one_thread
@@ -107,7 +107,7 @@ def test_the_strip_is_born_where_growth_begins(of_strip):
     line = np.polyfit(a, square, 1)
     # Half of the line's bend over 1 %, and the inertia against flap, 4e-5.
     assert -line[1] / line[0] == pytest.approx(at, rel=5e-4)
-    found = planar_stability(STRIP, 0.0, [0.995 * at, 1.01 * at])
+    found = periodic_orbits(STRIP, 0.0, [0.995 * at, 1.01 * at]).out_of_plane()
     assert found.stable.tolist() == [True, False]
     assert found.kind[1] == "divergence"
     assert of_strip.born.frequency == pytest.approx(found.frequency[0], rel=1e-5)
@@ -129,7 +129,8 @@ def test_the_strip_flaps_to_one_side_with_the_root_of_the_distance(of_strip):
 def test_the_strip_in_rotation_leaves_in_short_waves():
     """Flap of eight half waves takes 77 harmonics, more unknowns than other orbits may have."""
     at = 0.03995904
-    assert planar_stability(STRIP, 2.0, [0.9998 * at, 1.0002 * at]).kind == ("", "divergence")
+    planar = periodic_orbits(STRIP, 2.0, [0.9998 * at, 1.0002 * at])
+    assert planar.out_of_plane().kind == ("", "divergence")
     found = backbone(STRIP, 2.0, functions=20).leaving(0.0398, 0.0401, points=4)
     assert found.born.amplitude == pytest.approx(at, rel=2e-6)
     assert found.frequency.size == 4
@@ -146,7 +147,7 @@ def test_period_doubling_in_rotation():
     """Twice as deep as wide at 2 rad/s: born below an unstable part, then the lag turns around."""
     blade = Beam.reference().blade.with_shape(Rectangle(ratio=2.0))
     at = 0.5457
-    assert planar_stability(blade, 2.0, [1.008 * at]).kind == ("period doubling",)
+    assert periodic_orbits(blade, 2.0, [1.008 * at]).out_of_plane().kind == ("period doubling",)
     found = backbone(blade, 2.0, functions=8).leaving(0.98 * at, 1.008 * at, periods=2, points=5)
     flat = backbone(blade, 2.0).orbits(found.born.amplitude)
     assert found.born.frequency == pytest.approx(flat.frequency[0], rel=1e-5)

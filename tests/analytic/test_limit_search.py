@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from analytic import Beam, Rectangle, Theory
-from analytic.exact.plane.growth import GROWTH, Growth, planar_orbits
-from analytic.exact.plane.stability_limit import _limit
+from analytic.exact.free.planar_orbits import planar_orbits
+from analytic.exact.free.stability_limit import _limit
+from analytic.exact.plane.growth import GROWTH, Growth
 from analytic.methods.newton import NoOrbitError
 
 

@@ -202,7 +202,6 @@ def test_other_verbs_of_a_blade_that_is_hardly_twisted(verb):
     require_same(verb, LIMITS["twist"], Theory(), 1e-7)
 
 
-@pytest.mark.xfail(strict=True, reason="of planar orbits it is stability in the plane alone")
 def test_orbits_of_a_strip_that_leave_the_plane_are_unstable_in_the_limit():
     strip = Beam.reference().with_shape(Rectangle())
     require_same(stability, strip.with_twist(SMALL), Theory(), 1e-7, planar=strip)

@@ -18,7 +18,6 @@ from analytic import (
     forced_response,
     linear_modes,
     periodic_orbits,
-    planar_stability,
 )
 from analytic.exact.beam.steady import SteadyBeam, blade_continuum, steady_rotation
 from analytic.exact.driven.forced import DrivenBlade
@@ -161,7 +160,7 @@ def test_small_orbits_leave_each_mode_its_damping_ratio():
     """About the straight blade M, C and K have the same modes: exp(2π(-ζ ± i√(1 - ζ²))ν/Ω)."""
     # Of little torsional stiffness, so that its first mode is among the lowest four.
     blade, ratio = BEAM.with_section_out_of_plane(0.1, 1e-4), 0.02
-    multipliers = planar_stability(blade, 4.0, 1e-4, damping=ratio).multipliers[0]
+    multipliers = periodic_orbits(blade, 4.0, 1e-4).out_of_plane(damping=ratio).multipliers[0]
     frequency = linear_modes(blade, 4.0, 1, only="lag").frequencies[0]
     for plane in ("flap", "torsion"):
         own = linear_modes(blade, 4.0, 1, only=plane).frequencies[0]

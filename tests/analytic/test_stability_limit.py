@@ -14,17 +14,17 @@ from analytic import (
     Rectangle,
     Section,
     SpinUp,
+    Theory,
     Tube,
     linear_modes,
     periodic_orbits,
-    planar_stability,
     spin_up_response,
     stability_limit,
 )
 from analytic.exact.beam.steady import blade_continuum, steady_rotation
-from analytic.exact.plane.growth import _steady_modes, planar_note, planar_orbits
+from analytic.exact.free.planar_orbits import growth_rates, planar_orbits
+from analytic.exact.plane.growth import GrowthOutOfPlane, _steady_modes
 from analytic.exact.plane.out_of_plane import Space, with_points_for
-from analytic.exact.plane.planarity import PlanarStability, growth_rates
 from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER
 from tests.beams import UNIT, told
@@ -59,7 +59,9 @@ LIMITS = {
     ],
 )
 def test_where_rectangles_leave_the_plane(beam, omega, ratio, first, steps):
-    found = planar_stability(beam.blade.with_shape(Rectangle(ratio=ratio)), omega, steps)
+    found = periodic_orbits(
+        beam.blade.with_shape(Rectangle(ratio=ratio)), omega, steps
+    ).out_of_plane()
     unstable = found.amplitude[~found.stable]
     assert (unstable.min() if unstable.size else None) == first
 
@@ -119,7 +121,9 @@ def test_above_the_limit_all_orbits_grow_and_below_it_only_tongues_do(beam, stri
     above = np.linspace(limit.amplitude * 1.0005, 0.09, 8)
     between = [one.low * 0.997 for one in limit.tongues]
     inside = [0.5 * (one.low + one.high) for one in limit.tongues]
-    found = planar_stability(beam.with_shape(Rectangle()), 6.0, [*between, *inside, *above])
+    found = periodic_orbits(
+        beam.with_shape(Rectangle()), 6.0, [*between, *inside, *above]
+    ).out_of_plane()
     per_radian = found.growth_rate / found.frequency
     count = len(between)
     assert np.all(per_radian[2 * count :] >= 0.01)
@@ -140,7 +144,7 @@ def test_a_tongue_in_the_range_is_no_limit(beam):
     assert math.isinf(found.amplitude)
     (tongue,) = found.tongues
     assert 0.0 < tongue.growth < found.growth == 0.01
-    edges = planar_stability(blade, found.omega, [tongue.low, tongue.high, 0.6])
+    edges = periodic_orbits(blade, found.omega, [tongue.low, tongue.high, 0.6]).out_of_plane()
     assert edges.stable.tolist() == [False, False, True]
     assert "stay in their plane, up to a = 0.6, but for one tongue from" in str(found)
 
@@ -157,8 +161,8 @@ def test_all_spin_ups_of_the_paper_leave_the_plane_as_a_rectangle_and_not_as_a_t
     assert min(ends) > 0.097
     limit = stability_limit(beam.with_shape(Rectangle()), omega)
     assert limit.amplitude < min(ends)
-    assert not planar_stability(beam.with_shape(Rectangle()), omega, ends).stable.any()
-    assert planar_stability(beam.with_shape(Tube()), omega, ends).stable.all()
+    assert not periodic_orbits(beam.with_shape(Rectangle()), omega, ends).stable.any()
+    assert periodic_orbits(beam.with_shape(Tube()), omega, ends).stable.all()
 
 
 LIMIT_OF_SOFT_FLAP = 0.39117
@@ -175,13 +179,15 @@ def test_a_rectangle_of_three_to_one_has_a_tongue_of_the_sum(beam):
 
 def test_on_either_side_of_the_limit_an_orbit_leaves_its_plane_or_stays(beam):
     blade = beam.with_section_out_of_plane(0.01, math.inf)
-    found = planar_stability(blade, 2.0, [LIMIT_OF_SOFT_FLAP + 1e-3, LIMIT_OF_SOFT_FLAP - 1e-3])
+    found = periodic_orbits(
+        blade, 2.0, [LIMIT_OF_SOFT_FLAP + 1e-3, LIMIT_OF_SOFT_FLAP - 1e-3]
+    ).out_of_plane()
     assert found.stable.tolist() == [False, True]
     assert found.growth_rate[0] > 0.0
     assert found.kind == ("period doubling", "")
     assert found.modes[1] == ()
     assert found.converged.all()
-    assert "leaves its plane: period doubling of flap 1" in str(found)
+    assert "leave their plane; the smallest, a = 0.3922" in str(found)
     # Growth over a period is the largest multiplier.
     growth = math.exp(found.growth_rate[0] * 2.0 * math.pi / found.frequency[0])
     assert np.abs(found.multipliers[0]).max() == pytest.approx(growth, rel=1e-9)
@@ -191,21 +197,6 @@ def test_on_either_side_of_the_limit_an_orbit_leaves_its_plane_or_stays(beam):
     flap = math.hypot(linear_modes(beam, 2.0, 1).frequencies[0], 2.0)
     decay = growth_rates(beam.with_section_out_of_plane(1.0), 2.0, np.array([0.01]), damping=0.02)
     assert decay == pytest.approx(-0.02 * flap, rel=1e-5)
-
-
-def test_results_beyond_the_limit_say_so_in_one_sentence(beam):
-    blade = beam.with_section_out_of_plane(0.01, math.inf)
-    beyond = planar_note(blade, 2.0, 0.45)
-    assert "planar orbit of a = 0.4 leaves it by" in beyond
-    assert "this one has a = 0.45" in beyond
-    assert planar_note(blade, 2.0, 0.3) == ""
-    assert planar_note(beam, 2.0, 0.45) == "", "nothing is known of this section"
-    # Between two amplitudes that are looked at, the motion's own tells; the limit is 0.3912.
-    assert planar_note(blade, 2.0, 0.39) == ""
-    assert "planar orbit of a = 0.393 leaves it by" in planar_note(blade, 2.0, 0.393)
-    unknown = beam.with_section_out_of_plane(0.5)
-    assert "is not known: with a bending_ratio of 0.5" in planar_note(unknown, 2.0, 0.3)
-    assert planar_note(blade.with_damping(Damping(bending=0.01)), 2.0, 0.5) == ""
 
 
 @pytest.mark.slow
@@ -223,14 +214,14 @@ def test_limits_over_shape_are_infinite_where_nothing_grows(beam):
 @pytest.mark.parametrize("omega", [0.0, 1e-3])
 def test_a_tube_that_hardly_turns_stays_in_the_plane(beam, omega):
     """Its plane may nearly be turned: multipliers near a double 1, which nothing may split."""
-    found = planar_stability(beam.with_shape(Tube()), omega, [0.1, 0.4])
+    found = periodic_orbits(beam.with_shape(Tube()), omega, [0.1, 0.4]).out_of_plane()
     assert found.stable.all()
 
 
 def test_a_stability_of_growth_that_overflows_is_finite(beam):
     """The rectangle at 0.4 of its length: multipliers beyond what a number holds."""
-    found = planar_stability(beam.with_shape(Rectangle()), 2.0, 0.4)
-    assert isinstance(found, PlanarStability)
+    found = periodic_orbits(beam.with_shape(Rectangle()), 2.0, 0.4).out_of_plane()
+    assert isinstance(found, GrowthOutOfPlane)
     assert 50.0 < found.growth_rate[0] < 500.0
     assert not found.converged[0]
 
@@ -242,26 +233,32 @@ ROUND = Tube()
 @pytest.mark.parametrize(
     ("ask", "sentence"),
     [
-        (lambda: planar_stability(UNIT, 1.0, 0.1), "is unknown: give its section by"),
+        (lambda: periodic_orbits(UNIT, 1.0, 0.1).out_of_plane(), "is unknown: give its section by"),
         (lambda: stability_limit(UNIT, 1.0), "is unknown: give its section by"),
         (
             lambda: linear_modes(UNIT, 1.0, only="flap"),
             "has 0 flap modes: .* known out of the plane",
         ),
         (
-            lambda: planar_stability(UNIT.with_section_out_of_plane(0.5), 1.0, 0.1),
+            lambda: periodic_orbits(UNIT.with_section_out_of_plane(0.5), 1.0, 0.1).out_of_plane(),
             "torsional stiffness decides .* math.inf",
         ),
         (
-            lambda: planar_stability(UNIT.with_shape(ROUND).with_setting_angle(0.3), 1.0, 0.1),
+            lambda: stability_limit(UNIT.with_shape(ROUND).with_setting_angle(0.3), 1.0),
             r"set at 0.3 rad: take blade.with_setting_angle\(0.0\)",
         ),
-        (lambda: planar_stability(UNIT.with_shape(ROUND), 1.0, 0.1, damping=-0.1), "not be neg"),
         (
-            lambda: planar_stability(told(UNIT, 0.0, 0.5, 0.5), 1.0, 0.1),
+            lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, damping=-0.1),
+            "not be neg",
+        ),
+        (
+            lambda: periodic_orbits(told(UNIT, 0.0, 0.5, 0.5), 1.0, 0.1).out_of_plane(),
             "twist without inertia: give .* a rotary_inertia above zero",
         ),
-        (lambda: planar_stability(UNIT.with_shape(ROUND), 1.0, 1.5), "between 0 and 1"),
+        (
+            lambda: periodic_orbits(UNIT.with_shape(ROUND), 1.0, 1.5),
+            "between 0 and 1",
+        ),
         (lambda: stability_limit(UNIT.with_shape(ROUND), 1.0, largest=1.0), "below 1"),
         (
             lambda: linear_modes(
@@ -274,7 +271,9 @@ ROUND = Tube()
             "has 0 torsion modes: .* no motion without stiffness or inertia has",
         ),
         (
-            lambda: planar_stability(UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02),
+            lambda: periodic_orbits(
+                UNIT.with_section_out_of_plane(1e-3, 1.0), 100.0, 0.02
+            ).out_of_plane(),
             "in the flap frequencies at w_bar = 100; rotate slower",
         ),
         (
@@ -294,7 +293,7 @@ def test_what_is_refused(ask, sentence):
 def test_orbits_that_do_not_exist_are_named(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=30))
     with pytest.raises(AmplitudeNotReachedError, match="no orbit of lag 3"):
-        planar_stability(beam.with_shape(Rectangle()), 4.0, 0.2, mode="lag 3")
+        periodic_orbits(beam.with_shape(Rectangle()), 4.0, 0.2, mode="lag 3").out_of_plane()
 
 
 TAPERED = Blade(
@@ -321,3 +320,32 @@ def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam, inertia):
         # The Hill equation leaves out the inertia of sections that turn with the slope of flap.
         within = 1e-5 if inertia and plane == "flap" else 1e-8
         assert [of[f"{plane} 1"], of[f"{plane} 2"]] == pytest.approx(known, rel=within)
+
+
+@pytest.mark.parametrize(
+    ("blade", "theory", "covers"),
+    [
+        (UNIT.with_shape(ROUND), BERNOULLI_EULER, "all directions"),
+        (UNIT.with_shape(ROUND).with_twist(0.1), BERNOULLI_EULER, "all directions"),
+        (UNIT, BERNOULLI_EULER, "the plane alone: how this blade bends and twists"),
+        (UNIT.with_shape(ROUND), Theory(shear=0.3), "the plane alone: how slices shear"),
+        (told(UNIT, 0.0, 0.5, 0.5), BERNOULLI_EULER, "the plane alone: .* without inertia"),
+    ],
+)
+def test_orbits_say_which_directions_their_stability_covers(blade, theory, covers):
+    orbits = periodic_orbits(blade, 1.0, 0.05, theory=theory)
+    assert re.match(covers, orbits.covers)
+    assert orbits.stable.all()
+
+
+def test_damping_of_the_blade_or_a_ratio_slows_what_leaves_the_plane(beam):
+    orbits = periodic_orbits(beam.with_shape(Rectangle()), 4.0, 0.08)
+    assert not orbits.stable[0]
+    free, ratio, both = (
+        orbits.out_of_plane(damping=damping, blade_damping=own).growth_rate[0]
+        for damping, own in ((0.0, None), (0.005, None), (0.005, Damping(external=0.05)))
+    )
+    assert free > ratio > both > 0.0
+    twisted = periodic_orbits(UNIT.with_shape(ROUND).with_twist(0.1), 1.0, 0.05)
+    with pytest.raises(ValueError, match="these orbits are in space and have no plane to leave"):
+        twisted.out_of_plane()

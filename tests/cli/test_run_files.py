@@ -81,7 +81,7 @@ def test_the_file_reaches_the_other_commands(call, config, reached):
     config.write_text(RUN.partition("[numerics]")[0])
     assert "at ω = 4 rad/s" in call("backbone", "--config", config)[1]
     tube = ("stability", "--section", "tube", "--amplitude", "0.02")
-    assert reached(analytic, "planar_stability", *tube)[0][1] == 4.0
+    assert reached(analytic, "stability_limit", *tube)[0][1] == 4.0
     assert "--omega" in call(*tube)[2]
     # The diagram goes to twice the speed; the Explorer has sliders.
     assert reached(analytic, "campbell", "campbell")[0][1][-1] == 8.0

@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 
 import analytic
-from analytic import Rectangle, planar_stability
-from analytic.exact.plane.stability_limit import StabilityLimit, Tongue
+from analytic import Rectangle, periodic_orbits
+from analytic.exact.free.stability_limit import StabilityLimit, Tongue
 from rotbeam_exu import load
 from rotbeam_exu.runs.attributes import beam_of
 from tests.beams import BLADE_TOML
@@ -42,7 +42,7 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
     assert "sum" in tongue
     assert " 0.3532 " in tongue
     blade = beam.blade.with_shape(Rectangle(ratio=3.0))
-    exact = planar_stability(blade, 2.0, [0.3, 0.36])
+    exact = periodic_orbits(blade, 2.0, [0.3, 0.36]).out_of_plane()
     row = next(line for line in out.splitlines() if line.startswith("│   0.3"))
     assert f"{exact.growth_rate[0]:.4g}" in row
     assert "sum resonance" in row
@@ -82,7 +82,7 @@ def test_damping_makes_the_growth_slower(call, tmp_path, beam, monkeypatch):
     sentence = "by 0.005 of the critical, are unstable out of the plane for a between 0.0402"
     assert sentence in " ".join(out.split())
     data = load(tmp_path / "stability-rectangle-omega-2-lag-1.nc")
-    free = planar_stability(beam.with_shape(Rectangle()), 2.0, [0.045]).growth_rate[0]
+    free = periodic_orbits(beam.with_shape(Rectangle()), 2.0, [0.045]).out_of_plane().growth_rate[0]
     assert 0.0 < data["growth_rate"].item() < free
     # Without damping it is another result.
     code, _, error = call(*command, "--out", tmp_path)
@@ -102,4 +102,4 @@ def test_a_section_out_of_a_file(call, reached, tmp_path):
     assert np.array_equal(growth, [0.0])
 
     # What it found is no input: the same may be asked again, and is computed.
-    assert reached(analytic, "planar_stability", *command, "--out", tmp_path)
+    assert reached(analytic, "stability_limit", *command, "--out", tmp_path)

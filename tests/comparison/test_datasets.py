@@ -10,7 +10,7 @@ import xarray as xr
 import analytic
 import rotbeam_exu
 from analytic import Beam, Blade, Damping, Rectangle, Section, SpinUp, Theory, TipForce
-from analytic.exact.plane.stability_limit import StabilityLimit, Tongue
+from analytic.exact.free.stability_limit import StabilityLimit, Tongue
 from rotbeam_exu import dataset_of, load, save, steady_oscillation
 from rotbeam_exu.datasets import _described, frames_of
 
@@ -67,7 +67,7 @@ MADE = {
     "PaperTable": lambda: analytic.paper_table(5),
     "SpinUpResponse": lambda: spun(BEAM),
     "ForcedResponse": lambda: forced(BEAM, 6.0, [3.7, 3.8]),
-    "PlanarStability": lambda: analytic.planar_stability(STRIP, 6.0, [0.02, 0.05]),
+    "GrowthOutOfPlane": lambda: analytic.periodic_orbits(STRIP, 6.0, [0.02, 0.05]).out_of_plane(),
     "StabilityLimit": limit,
     "Campbell": lambda: analytic.campbell(BEAM, [0.0, 6.0], 2),
     "SectionLoads": lambda: analytic.periodic_orbits(BEAM, 6.0, [0.1]).section_loads(
@@ -150,7 +150,7 @@ def of_orbits():
     yield "orbits", of.orbits([0.05])
     yield "curve", of.curve(up_to=0.1)
     yield "branch", of.branch(up_to=0.1)
-    yield "stability", analytic.planar_stability(strip, 6.0, [0.05], **how)
+    yield "stability", analytic.periodic_orbits(strip, 6.0, [0.05], **how).out_of_plane()
     yield "limit", analytic.stability_limit(strip, 6.0, largest=0.05, **how)
 
 

@@ -17,11 +17,10 @@ PLAIN = {
         "analytic.exact.free.curve.BackboneCurve analytic.spin_up.quiet.QuietRamps "
         "analytic.exact.linear.campbell.Crossing analytic.reduced.linear_frame.LinearResponse "
         "analytic.exact.free.internal_resonance.Resonance analytic.exact.free.branch.SpecialPoint "
-        "analytic.exact.plane.stability_limit.StabilityLimit "
+        "analytic.exact.free.stability_limit.StabilityLimit "
         "analytic.exact.driven.response.SpinUpResponse analytic.exact.free.backbone.Backbone "
         "analytic.exact.free.branches.BackboneBranch "
-        "analytic.exact.plane.planarity.PlanarStability "
-        "analytic.exact.plane.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam "
+        "analytic.exact.free.stability_limit.Tongue rotbeam_exu.fem.RotatingBeam "
         "analytic.reduced.model.ReducedModel rotbeam_exu.runs.oscillation.SteadyOscillation"
     ),
     "loads and shapes that are used as TipForce and Rectangle are": (
@@ -43,8 +42,8 @@ BEYOND = {
     "analytic.exact.free.branch", "analytic.exact.free.branches", "analytic.exact.free.curve",
     "analytic.exact.free.internal_resonance", "analytic.exact.free.leaving",
     "analytic.exact.free.orbits", "analytic.exact.linear.campbell",
-    "analytic.exact.linear.modes", "analytic.exact.plane.planarity",
-    "analytic.exact.plane.stability_limit", "analytic.exact.space.modes",
+    "analytic.exact.linear.modes", "analytic.exact.plane.growth",
+    "analytic.exact.free.stability_limit", "analytic.exact.space.modes",
     "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.model_range",
     "analytic.section", "analytic.spin_up.quiet",
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",

@@ -12,7 +12,6 @@ from analytic import (
     Tube,
     linear_modes,
     periodic_orbits,
-    planar_stability,
 )
 from analytic.exact.beam.state import BeamState
 from rotbeam_exu import kicked, natural_frequencies, simulate
@@ -183,7 +182,7 @@ def test_an_unstable_rectangle_grows_as_theory_says():
 
     Three powers of ten take 2.4 periods, and the kick needs one to become that mode.
     """
-    stability = planar_stability(RECTANGLE, 2.0, [0.045])
+    stability = periodic_orbits(RECTANGLE, 2.0, [0.045]).out_of_plane()
     rates = []
     for elements in (32, 64):
         run = run_on_an_orbit(RECTANGLE, 2.0, 0.045, 4.0, elements=elements, step=5e-3)
@@ -205,7 +204,7 @@ def test_the_cable_grows_inside_its_tongue(amplitude, w_bar, periods):
     the motion grows by a sixth too slowly.
     """
     omega = w_bar * ALIKE.frequency_scale
-    stability = planar_stability(ALIKE, omega, [amplitude])
+    stability = periodic_orbits(ALIKE, omega, [amplitude]).out_of_plane()
     settings = {"element": "space_cable", "elements": 8, "step": 5e-3}
     run = run_on_an_orbit(ALIKE, omega, amplitude, periods, **settings)
     rate, decades = growth_rate_of(run, 2.0 * np.pi / stability.frequency[0])

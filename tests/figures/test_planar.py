@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from analytic import Rectangle, Theory, Tube, planar_stability
-from analytic.exact.plane.stability_limit import StabilityLimit
+from analytic import Rectangle, Theory, Tube, periodic_orbits
+from analytic.exact.free.stability_limit import StabilityLimit
 from rotbeam_exu import comparison, dataset_of, figures
 
 
 def test_growth_over_the_amplitude(beam):
     blade = beam.blade.with_shape(Rectangle(ratio=3.0))
-    found = planar_stability(blade, 2.0, [0.25, 0.3])
+    found = periodic_orbits(blade, 2.0, [0.25, 0.3]).out_of_plane()
     axes = figures.planar_stability(dataset_of(found))
     by_label = {line.get_label(): line for line in axes.lines}
     assert by_label["sum resonance"].get_xydata() == pytest.approx(
@@ -29,7 +29,7 @@ def test_growth_over_the_amplitude(beam):
 
 
 def test_what_stays_is_drawn_at_zero(beam):
-    found = planar_stability(beam.with_shape(Tube()), 6.0, [0.1, 0.3])
+    found = periodic_orbits(beam.with_shape(Tube()), 6.0, [0.1, 0.3]).out_of_plane()
     axes = figures.planar_stability(dataset_of(found))
     assert axes.get_ylim()[0] == 0.0
     assert axes.get_yticks().tolist() == [0.0]

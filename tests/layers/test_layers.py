@@ -66,7 +66,7 @@ def forbidden(name, target):
 
 
 # Inside `exact` too; a study that a result is asked for is imported then, inside the function.
-ROOMS_OF_EXACT = ("beam", "space", "linear", "free", "plane", "driven")
+ROOMS_OF_EXACT = ("beam", "space", "linear", "plane", "free", "driven")
 
 
 def test_the_rooms_of_the_exact_beam_stand_on_each_other():

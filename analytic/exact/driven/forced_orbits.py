@@ -9,15 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import require_out_of_plane, undamped
-from ...input_checks import finite_array, finite_number, not_negative
+from ...beam import undamped
+from ...input_checks import finite_array, finite_number
 from ...loads import Load
 from ...plotting import axes_or_new, draw_response
-from ...threads import one_thread
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpecialPoint
 from ..linear.modes import driven_modes
-from ..plane.planarity import GrowthOutOfPlane, grown_about
 
 if TYPE_CHECKING:
     from ...plotting import Axes
@@ -72,9 +70,9 @@ class ForcedResponse(Branch):
 
     _covered: ClassVar[int] = 4
     _tolerance: ClassVar[float] = 1e-9
+    _confirms: ClassVar[bool] = False  # there are many, and a slow drive takes ten times as long
 
     load: Load
-    omega: FloatArray
     harmonics: ComplexArray = field(repr=False)
     residual: FloatArray = field(repr=False)
 
@@ -107,29 +105,6 @@ class ForcedResponse(Branch):
         """Return q/L of point `i` at the phases φ [rad]."""
         phases = finite_array("phase", phase, "rad")
         return self._orbit(i).gauge(phases.ravel()).reshape(phases.shape)
-
-    @one_thread
-    def out_of_plane(self, damping: float = 0.0, *, confirm: bool = True) -> GrowthOutOfPlane:
-        """Return what grows out of the plane about each point, as `planar_stability` does.
-
-        The blade's own `Damping` resists the response and what leaves its plane.
-
-        Parameters
-        ----------
-        damping : float
-            Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
-        confirm : bool
-            Whether twice as many functions and steps are asked as well, which takes ten times as
-            long; if not, nothing is told as converged.
-
-        Raises
-        ------
-        ValueError
-            If the section out of the plane is unknown, or the theory has shear.
-        """
-        require_out_of_plane(self.beam, self.theory)
-        ratio = not_negative("damping", damping)
-        return GrowthOutOfPlane(**grown_about(self.beam, self, self.theory, ratio, confirm))
 
     @property
     def backbone(self) -> Backbone:

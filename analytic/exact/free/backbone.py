@@ -92,7 +92,7 @@ class Backbone(ModePath):
         ----------
         low, high : float
             Peaks |q|/L of two planar orbits, below 1: one on either side of an edge of instability,
-            as `planar_stability` or `stability_limit` tell it. Of several edges one is found.
+            as `stable` of orbits or `stability_limit` shows it. Of several edges one is found.
         periods : int
             1, or 2 for period doubling.
         points : int

@@ -11,13 +11,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade
-from ...input_checks import finite_number, finite_values, points_of_beam, whole_number
+from ...beam import AnyBlade, require_out_of_plane
+from ...input_checks import (
+    finite_number,
+    finite_values,
+    not_negative,
+    points_of_beam,
+    whole_number,
+)
 from ...methods.floquet import Multipliers, floquet_multipliers
 from ...methods.orbit import Orbit
+from ...parts import Damping
 from ...theory import Theory
+from ...threads import one_thread
 from ..beam.state import BeamState, SectionLoads, in_newtons
 from ..beam.steady import state_of
+from ..plane.growth import GrowthOutOfPlane, growth_about
 
 _SAMPLES = 4096  # of a period, which find its ends to 3e-7 of a swing
 
@@ -43,9 +52,12 @@ class OrbitSet:
 
     _covered: ClassVar[int] = 6
     _tolerance: ClassVar[float] = 1e-6
+    _confirms: ClassVar[bool] = True  # `stable`, as `out_of_plane`
 
     beam: AnyBlade
     theory: Theory
+    omega: Any  # rotation speed [rad/s], of a response (orbits,)
+    mode: str = ""  # from which free orbits grow
     frequency: FloatArray  # [rad/s], (orbits,)
     amplitude: FloatArray  # peak |q|/L, (orbits,)
     nondimensional: tuple[Orbit[Any], ...] = field(repr=False)  # in time t √(EI/mL³)
@@ -121,19 +133,106 @@ class OrbitSet:
     def multipliers(self) -> ComplexArray:
         """Floquet multipliers (orbits, 8) of the lowest four modes; of free orbits two are 1.
 
+        Those of motion in the plane, if the orbits are planar; `out_of_plane` has the others.
         Computed when first asked for.
         """
         return np.array([found.lowest for found in self._stability])
 
     @property
     def stable(self) -> NDArray[np.bool_]:
-        """Whether small disturbances in the plane do not grow, (orbits,).
+        """Whether small disturbances do not grow, (orbits,): in all directions, or as `covers`.
 
         No Floquet multiplier lies outside the unit circle: of a free orbit in the plane for the
-        lowest six modes, which the integration over a period resolves. Of motion out of the
-        plane `planar_stability` tells; of a blade in space this covers all directions.
+        lowest six modes, which the integration over a period resolves, and out of it as
+        `out_of_plane` has it. Computed when first asked for.
         """
-        return np.array([found.stable(self._tolerance) for found in self._stability])
+        inside = np.array([one.stable(self._tolerance) for one in self._stability])
+        return inside if self._growth is None else inside & self._growth.stable
+
+    @property
+    def covers(self) -> str:
+        """Directions that `stable` is about: "all directions", or the plane alone and the reason.
+
+        Out of the plane it is unknown where the section is, or shears.
+        """
+        unknown = self._unknown_out_of_plane
+        return f"the plane alone: {unknown}" if unknown else "all directions"
+
+    @property
+    def _in_space(self) -> bool:
+        return bool(self.nondimensional[0].system.model.in_space)
+
+    @cached_property
+    def _unknown_out_of_plane(self) -> str:
+        """Reason why nothing is known out of the plane, "" if it is."""
+        if not self._in_space:
+            try:
+                require_out_of_plane(self.beam, self.theory)
+            except ValueError as unknown:
+                return str(unknown)
+        return ""
+
+    @cached_property
+    def _growth(self) -> GrowthOutOfPlane | None:
+        """Growth out of the plane, None where the multipliers have all or it is unknown."""
+        if self._in_space or self._unknown_out_of_plane:
+            return None
+        return self.out_of_plane(confirm=self._confirms)
+
+    @one_thread
+    def out_of_plane(
+        self,
+        damping: float = 0.0,
+        *,
+        blade_damping: Damping | None = None,
+        confirm: bool = True,
+    ) -> GrowthOutOfPlane:
+        """Return how what leaves the plane grows about each planar orbit.
+
+        The planar orbits stay as they are: free ones are undamped, for damped motion is not
+        periodic. What leaves their plane may be damped.
+
+        Parameters
+        ----------
+        damping : float
+            Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
+        blade_damping : Damping, optional
+            Damping of the blade against flap and torsion. By default that of the orbits' blade:
+            of a response its own, of free orbits none.
+        confirm : bool
+            Whether twice as many functions and steps confirm each number. Without it, about a
+            drive slower than the blade in a tenth of the time, nothing is marked as converged.
+
+        Raises
+        ------
+        ValueError
+            If the orbits are in space; if the section out of the plane is unknown, or its torsion
+            where that decides; if twist has no inertia; if the theory has shear; if the blade
+            turns so fast that its flap modes are not resolved.
+
+        Examples
+        --------
+        >>> from analytic import Beam, Rectangle, periodic_orbits
+        >>> strip = Beam.reference().with_shape(Rectangle())
+        >>> orbits = periodic_orbits(strip, 4.0, [0.02, 0.08])
+        >>> print(orbits.stable, orbits.covers)
+        [ True False] all directions
+        >>> print(orbits.out_of_plane(damping=0.005).modes[1])
+        ('flap 4', 'flap 5')
+        """
+        if self._in_space:
+            raise ValueError(
+                "these orbits are in space and have no plane to leave: `stable` is about all "
+                "directions"
+            )
+        blade = self.beam if blade_damping is None else self.beam.with_damping(blade_damping)
+        require_out_of_plane(blade, self.theory)
+        ratio = not_negative("damping", damping)
+        return GrowthOutOfPlane(
+            blade=blade, omega=self.omega, mode=self.mode, theory=self.theory,
+            amplitude=self.amplitude, frequency=self.frequency,
+            **growth_about(self.nondimensional, blade, self.theory, ratio, confirm),
+        )  # fmt: skip
 
     @property
     def lag(self) -> FloatArray:

@@ -52,8 +52,6 @@ class BackboneBranch(Branch):
         about them, ascending.
     """
 
-    omega: float
-    mode: str
     piece: NDArray[np.int_]
     resonances: tuple[Resonance, ...]
 

@@ -81,8 +81,6 @@ class LeavingBranch(Branch):
     >>> axes = found.plot()
     """
 
-    omega: float
-    mode: str
     periods: int
     mirror: bool
     born: SpecialPoint
@@ -233,7 +231,7 @@ def leaving_branch(
             raise ValueError(
                 f"between a = {low:g} and {high:g} no multiplier out of the plane passes "
                 f"{'1' if periods == 1 else '-1'} at {of.omega:g} rad/s: take the amplitudes "
-                "around an edge that planar_stability shows, periods=2 where the period doubles"
+                "around an edge that stable of orbits shows, periods=2 where the period doubles"
             )
 
     _, (amplitude, leaving), error = settled(

@@ -65,8 +65,6 @@ class Orbits(OrbitSet):
     >>> axes = found.plot()
     """
 
-    omega: float
-    mode: str
     omega_n: float
     lambda_omega: float
     lambda_omega_error: float

@@ -2,33 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_planar, undamped
-from ...input_checks import not_negative, rotation_speed
+from ...beam import AnyBlade
 from ...methods.floquet import flow, normal_modes, reversible_monodromy
-from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.steady import SteadyBeam, resolved_model
-from ..free.path import AmplitudeNotReachedError, ModePath
-from ..linear.modes import mode_name
+from ..beam.steady import SteadyBeam
 from .out_of_plane import OutOfPlaneMotion, Space, with_points_for
 
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""
-LEAST_GROWTH = 0.01
-"""Growth per radian of an undamped orbit that counts."""
-SMALLEST = 0.01
-"""Peak |q|/L of the smallest orbits that are looked at."""
 STEPS = 24
-_FUNCTIONS = 16  # for the orbits' angle, as in `periodic_orbits`
 _SIZES = (12, 18, 27)  # functions
 _SETTLED = 1e-3  # of the first four flap frequencies, with half as many functions again
 _RESOLVED = 4.5  # phase of a mode over a step [rad], which six stages meet to 1e-4
@@ -36,7 +29,6 @@ _FASTEST = 20.0  # growth over a period that is not looked at more closely
 _FAST = 1.0  # growth over a period beyond which it is no matter of resolution
 _SAME = 0.01  # of the growth, from half the functions and steps
 _REPORTED = 4  # modes
-_SCANNED = (0.02, 0.035, 0.05, 0.08, *np.arange(0.1, 0.95, 0.05).round(2).tolist())
 _SHARE = 0.15  # of the energy, from which a mode is named
 
 
@@ -179,92 +171,92 @@ def _shares(
     return frequencies, names, energy / energy.sum(axis=0)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PlanarOrbits(ModePath):
-    """Planar orbits of a mode, by their amplitude, and the motion that grows out of their plane.
+@dataclass(frozen=True, kw_only=True)
+class GrowthOutOfPlane:
+    """Growth out of their plane about planar orbits, free or of a response to a load.
 
-    The planar orbits are undamped; what leaves the plane has the damping of the `blade`, and the
-    damping ratio `damping` of its modes.
+    Made by `out_of_plane` of the orbits. Small motion out of the plane about an orbit obeys a Hill
+    equation, which is integrated over a period by Gauss's method. Modes up to 48 times the
+    frequency of the orbit are resolved; those beyond follow, or oscillate too fast to be excited.
+
+    Attributes
+    ----------
+    blade : Blade
+        With the damping that resists what leaves the plane.
+    omega : float or ndarray (orbits,)
+        Rotation speed ω [rad/s].
+    mode : str
+        Mode from which free orbits grow, "" of a response.
+    theory : Theory
+        Of the orbits.
+    amplitude : ndarray (orbits,)
+        Peak |q|/L of the planar orbits.
+    frequency : ndarray (orbits,)
+        Their frequency [rad/s].
+    multipliers : ndarray (orbits, 8)
+        Floquet multipliers over a period of the orbit, with the motion in the lowest modes.
+    growth_rate : ndarray (orbits,)
+        Of the fastest growth [1/s], zero where nothing grows.
+    kind : tuple of str
+        How it grows: "period doubling", multiplier below -1; "divergence", above 1; "sum
+        resonance", a complex pair; "" where nothing grows.
+    modes : tuple of tuple of str
+        The modes that hold its energy as the blade passes its straight shape, as "flap 1".
+    converged : ndarray (orbits,)
+        Whether on half, or two thirds, as many functions and steps it is stable as well, or grows
+        within 1 % as fast.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Rectangle, periodic_orbits
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> growth = periodic_orbits(strip, 4.0, [0.01, 0.2]).out_of_plane()
+    >>> print(growth.stable, growth.kind, growth.growth_rate.round(1))
+    [ True False] ('', 'divergence') [  0.  120.8]
     """
 
     blade: AnyBlade
-    damping: float
+    omega: Any
+    mode: str
+    theory: Theory
+    amplitude: FloatArray
+    frequency: FloatArray
+    multipliers: ComplexArray = field(repr=False)
+    growth_rate: FloatArray
+    kind: tuple[str, ...]
+    modes: tuple[tuple[str, ...], ...]
+    converged: NDArray[np.bool_]
 
     @property
-    def damped(self) -> bool:
-        """Whether anything resists what leaves the plane."""
-        return bool(self.damping) or any(self.blade.unit.damping)
+    def stable(self) -> NDArray[np.bool_]:
+        """Whether nothing grows out of the plane, (orbits,)."""
+        return np.asarray(self.growth_rate == 0.0)
 
-    @property
-    def least(self) -> float:
-        """Growth per radian that counts: any, if it is damped."""
-        return GROWTH / (2.0 * np.pi) if self.damped else LEAST_GROWTH
-
-    @cached_property
-    def functions(self) -> int:
-        """Number of functions that settles the flap modes."""
-        return settled_functions(self.blade, self.path.at(SMALLEST).system, self.theory)
-
-    def growth(self, amplitude: float, finer: int = 1) -> Growth:
-        """Return what grows about an orbit, at a multiple of the resolution."""
-        orbit = self.path.at(amplitude)
-        return grown(
-            self.blade, orbit, finer * self.functions, finer * STEPS, self.theory, self.damping
+    def __str__(self) -> str:
+        if self.stable.all():
+            return f"All planar orbits up to a = {self.amplitude.max():.4g} stay in their plane"
+        i = int(np.argmin(np.where(self.stable, np.inf, self.amplitude)))
+        return (
+            f"{np.sum(~self.stable)} of {self.stable.size} planar orbits leave their plane; the "
+            f"smallest, a = {self.amplitude[i]:.4g} at {self.frequency[i]:.6g} rad/s, by "
+            f"{self.kind[i]} of {' and '.join(self.modes[i])}, growing at "
+            f"{self.growth_rate[i]:.3g} 1/s"
         )
 
 
-def planar_orbits(
-    blade: AnyBlade,
-    omega: float,
-    mode: str | int = "lag 1",
-    theory: Theory = BERNOULLI_EULER,
-    damping: float = 0.0,
-) -> PlanarOrbits:
-    """Return the planar orbits of a mode at ω [rad/s]."""
-    free = undamped(blade)
-    name = lag_mode(free, omega, mode, theory)
-    model = resolved_model(free, int(name.split()[1]), theory, _FUNCTIONS)
-    return PlanarOrbits(
-        beam=free, omega=omega, mode=name, theory=theory, model=model,
-        blade=blade, damping=not_negative("damping", damping),
-    )  # fmt: skip
-
-
-def lag_mode(blade: AnyBlade, omega: float, mode: object, theory: Theory) -> str:
-    """Return the name of a mode, which is of lag: other orbits are not in the plane."""
-    name = mode_name(blade, omega, mode, theory)
-    if not name.startswith("lag"):
-        raise ValueError(f"planar orbits grow out of modes of lag, and mode is {name!r}: 'lag 1'")
-    return name
-
-
-def planar_note(blade: AnyBlade, omega: float, amplitude: float) -> str:
-    """Return one sentence if a planar motion of that amplitude leaves its plane, "" if not.
-
-    It leaves if an orbit of that amplitude, or one of a few smaller ones, grows out of the plane by
-    0.01 per radian. `stability_limit` gives the limit, which takes several times as long. A damped
-    blade, or one without a known section out of the plane, gives "" too.
-    """
-    require_planar(blade)
-    unit = blade.unit
-    if blade.section.out_of_plane is None or unit.setting != 1.0 or any(unit.damping):
-        return ""
-    if not 0.0 < amplitude < 1.0:
-        return ""
-    omega, amplitude = rotation_speed(omega), float(amplitude)
-    try:
-        orbits = planar_orbits(blade, omega)
-        for a in [*(a for a in _SCANNED if a < amplitude), amplitude]:
-            # The finer resolution confirms the first.
-            told = a == amplitude or orbits.growth(a).per_radian >= LEAST_GROWTH
-            if told and (what := orbits.growth(a, 2)).per_radian >= LEAST_GROWTH:
-                return (
-                    f"this section does not stay in the plane: at {omega:g} rad/s the planar orbit "
-                    f"of a = {a:.3g} leaves it by {what.per_radian:.2g} per radian ({what.kind} of "
-                    f"{' and '.join(what.modes)}), and this one has a = {amplitude:.3g}"
-                )
-    except ValueError as unknown:
-        return f"whether this motion stays in its plane is not known: {unknown}"
-    except (AmplitudeNotReachedError, NoOrbitError):
-        pass
-    return ""
+def growth_about(
+    orbits: Sequence[Orbit[Any]], blade: AnyBlade, theory: Theory, ratio: float, confirm: bool
+) -> dict[str, Any]:
+    """Return the numbers of `GrowthOutOfPlane` about planar orbits of a blade."""
+    growths = [grown_and_checked(blade, orbit, theory, ratio, confirm) for orbit in orbits]
+    scale = blade.frequency_scale
+    rates = [
+        one.rate(scale * orbit.frequency) for (one, _), orbit in zip(growths, orbits, strict=True)
+    ]
+    return {
+        "multipliers": np.array([one.multipliers for one, _ in growths]),
+        "growth_rate": np.array(rates),
+        "kind": tuple(one.kind for one, _ in growths),
+        "modes": tuple(one.modes for one, _ in growths),
+        "converged": np.array([converged for _, converged in growths]),
+    }

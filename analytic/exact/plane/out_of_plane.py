@@ -64,11 +64,6 @@ class Space:
         # Whether slices turn in bending too, or feel the clamp's rotation, or neither.
         self._whole = self._told or theory.rotary_inertia
         self._carried = theory.trapeze and not self._whole
-        if self.twists and told == 0.0:
-            raise ValueError(
-                "motion out of the plane is not known for a twist without inertia: give the "
-                "section a rotary_inertia above zero, or leave it out for a homogeneous one"
-            )
         self.size = (1 + self.twists) * self.functions
 
     @cached_property

@@ -11,7 +11,8 @@ from ...input_checks import peak_deflection, rotation_speed
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from .growth import GROWTH, LEAST_GROWTH, SMALLEST, Growth, PlanarOrbits, planar_orbits
+from ..plane.growth import GROWTH, Growth
+from .planar_orbits import LEAST_GROWTH, SMALLEST, PlanarOrbits, planar_orbits
 
 LARGEST = 0.6
 """Peak |q|/L up to which is looked unless told."""
@@ -35,7 +36,7 @@ class Tongue:
         Largest growth exponent over the orbit's frequency [1/rad].
     kind : str
     modes : tuple of str
-        How the motion grows there and what, as in `PlanarStability`.
+        How the motion grows there and what, as in `GrowthOutOfPlane`.
     """
 
     low: float
@@ -60,7 +61,7 @@ class StabilityLimit:
     searched : float
         Largest |q|/L that was looked at.
     kind : str
-        How the motion grows at the limit, as in `PlanarStability`.
+        How the motion grows at the limit, as in `GrowthOutOfPlane`.
     modes : tuple of str
         What grows there.
     tongues : tuple of Tongue
@@ -132,8 +133,16 @@ def stability_limit(
 
     Parameters
     ----------
-    blade, omega, mode, damping, theory
-        As for `planar_stability`.
+    blade : Blade
+        With a section out of the plane, of setting angle zero.
+    omega : float
+        Rotation speed ω [rad/s].
+    mode : str or int
+        Mode of lag from which the orbits grow, as of `backbone`.
+    damping : float
+        Damping ratio ζ of every mode of flap and torsion of the straight blade in rotation.
+    theory : Theory
+        Of the orbits, without shear: slices do not shear out of the plane.
     largest : float
         Largest |q|/L to look at.
 
