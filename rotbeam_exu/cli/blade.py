@@ -13,8 +13,8 @@ from analytic import Blade, Theory
 from analytic.arrays import FloatArray, evaluated, in_units
 from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 
-from .job import Flag
 from .motion import configured
+from .options import TheoryPairs, theory_of
 from .output import bar, formatted, print_columns, print_line, print_note
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _COUNT = 6  # modes
 
 
-def blade(*, shear: Flag = False, config: Path | None = None) -> None:
+def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
     """Print mass, stiffness and first frequencies of a blade.
 
     The frequencies are at rest and at the speed of the file.
@@ -33,8 +33,6 @@ def blade(*, shear: Flag = False, config: Path | None = None) -> None:
 
     Parameters
     ----------
-    shear
-        Let the sections shear, by GA2 and GA3 of a table of stations.
     config
         TOML file with the beam or blade, and optionally a speed; without it, the paper's beam.
 
@@ -43,19 +41,19 @@ def blade(*, shear: Flag = False, config: Path | None = None) -> None:
     $ rotbeam blade
     $ rotbeam blade --config beam.toml
     """
-    file = configured(config, "motion.omega")
+    file = configured(config, "motion.omega", "theory")
     beam, omega = file.beam.blade, file.motion.get("omega", 0.0)
-    theory = Theory(shear=True if shear else None)
+    law = theory_of(file, theory)
     with bar("modes"):
-        rest = analytic.linear_modes(beam, 0.0, _COUNT, theory=theory)
+        rest = analytic.linear_modes(beam, 0.0, _COUNT, theory=law)
         turning = {}
         if omega:
-            modes = analytic.linear_modes(beam, omega, _COUNT, theory=theory)
+            modes = analytic.linear_modes(beam, omega, _COUNT, theory=law)
             turning[f"at {omega:g} rad/s [Hz]"] = _named(modes, rest) / (2.0 * np.pi)
         section, others = beam.section, {}
         if isinstance(section, StationSection):
             (way,) = set(get_args(Interpolation)) - {section.interpolation}
-            others[way] = _changes(beam, section, way, theory, rest)
+            others[way] = _changes(beam, section, way, law, rest)
     place, mass = beam.unit.inertia(32)
     moment = float(place @ mass) * beam.mass_per_length * beam.length**2
     print_line("length", f"{beam.length:g} m, on a hub of {beam.hub_radius:g} m")
@@ -71,7 +69,7 @@ def blade(*, shear: Flag = False, config: Path | None = None) -> None:
             **{title: formatted(values, ".6f") for title, values in turning.items()},
             **{f'"{way}" [%]': formatted(changes, "+.4f") for way, changes in others.items()},
         },
-        title=f"Frequencies, {'with' if shear else 'without'} shear",
+        title=f"Frequencies, {law}",
     )
     for way, changes in others.items():
         print_note(

@@ -33,7 +33,7 @@ def rows(out):
 
 
 def test_it_prints_the_table_and_what_its_interpolation_is_worth(call, file):
-    code, out, error = call("blade", "--config", file, "--shear")
+    code, out, error = call("blade", "--config", file, "--theory", "shear=true")
     assert code == 0, error
     told = dict(line.split(maxsplit=1) for line in out.splitlines() if line[:4] in ("mass", "stat"))
     assert told == {"mass": "12 kg", "stations": "2"}
