@@ -8,7 +8,7 @@ import pytest
 
 from rotbeam_exu.cli import _COMMANDS, app
 from tests.beams import BLADE_TOML
-from tests.exudyn.test_beam_file import STATIONS
+from tests.files.test_beam_file import STATIONS
 
 FILES = {
     "stations": STATIONS, "blade": BLADE_TOML, "slip": "[motion]\nomga = 6",
@@ -98,7 +98,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         (f"{STABILITY}--section tube --ratio 2", "give it with a --section that has both"),
         (f"{STABILITY}--section rectangle --ratio 0", "ratio must be positive"),
         (f"{STABILITY}--section tube --mode 0", "mode must be at least 1"),
-        (f"{STABILITY}--section tube --amplitude 1.5", "between 0 and 1, got 1.5"),
+        (f"{STABILITY}--section tube --amplitude 1.5", "must be below 1, got 1.5"),
         (f"{STABILITY}--section rectangle --config ../blade.toml", "give width in m, or ratio"),
         (f"{RESPOND}--omega 6", "or --gravity, got none"),
         (f"{RESPOND}--gravity --ripple 0.1", "got --ripple and --gravity"),

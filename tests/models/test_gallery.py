@@ -145,7 +145,7 @@ def test_blade_in_exudyn(run):
     found = run("blade_in_exudyn")
     time, alone = found["alone"]
     exact = spin_up_response(found["blade"], found["spin_up"], time, tolerance=1e-5).q
-    # Eight cable elements at 2 ms; see tests/exudyn for their order.
+    # Eight cable elements at 2 ms; see tests/fem for their order.
     assert alone == pytest.approx(exact, abs=1e-2 * np.abs(exact).max())
     # The weight, a sixteenth of the blade's mass but at its tip, makes the oscillation slower.
     half_periods = [

@@ -14,7 +14,7 @@ from analytic.exact.space.unit import space_unit
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import finite_elements
 
-FILE = Path(__file__).parents[2] / "models" / "blades" / "iea_15mw.toml"
+FILE = Path(__file__).parents[3] / "models" / "blades" / "iea_15mw.toml"
 RATED = 7.56 * np.pi / 30.0
 BEAMDYN = Theory(shear=True, trapeze=False)
 # IEA-15-240-RWT_BeamDyn.dat: kp_xr [m] and initial_twist [degrees], every 117/49 m.

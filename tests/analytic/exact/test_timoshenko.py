@@ -141,7 +141,7 @@ def test_engessers_forces_are_the_slope_of_its_energy():
 @pytest.mark.parametrize(("ratio", "higher"), [(8.0, 1.7e-3), (20.0, 4.5e-5)])
 def test_engessers_law_has_another_limit(ratio, higher):
     """By Reissner's law the same code is `linear_modes`, so the law is what differs."""
-    page = Path(__file__).parents[2] / "docs" / "theory" / "continuum.md"
+    page = Path(__file__).parents[3] / "docs" / "theory" / "continuum.md"
     assert "1.7e-3 higher, at $L/h=20$ 4.5e-5" in page.read_text(encoding="utf-8")
     beam = unit_beam(1.0 / (12.0 * ratio**2))
     ours = sheared(beam, 6.0, 1)[0]

@@ -9,7 +9,7 @@ import pytest
 from analytic import Blade, Theory, linear_modes, steady_state
 from rotbeam_exu.files.beam_file import load_beam
 
-FILE = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml"
+FILE = Path(__file__).parents[3] / "models" / "blades" / "nrel_5mw.toml"
 RATED = 12.1 * np.pi / 30.0
 MORE_MASS = 1.05315  # by which the file's mass is more than the table's
 BEAM = Theory(trapeze=False)  # as the other codes have it

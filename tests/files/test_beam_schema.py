@@ -10,8 +10,8 @@ import pytest
 from rotbeam_exu.files.beam_file import load_run_file
 from rotbeam_exu.files.beam_tables import schema
 from tests.beams import BLADE_TOML
-from tests.exudyn.test_beam_file import DAMPED, GOOD, LINE, PLANE, STATIONS, WHOLE
-from tests.exudyn.test_stations_file import SHAPES
+from tests.files.test_beam_file import DAMPED, GOOD, LINE, PLANE, STATIONS, WHOLE
+from tests.files.test_stations_file import SHAPES
 
 ROOT = Path(__file__).parents[2]
 TYPES = {"number": (int, float), "integer": int, "string": str, "array": list, "object": dict}
