@@ -273,7 +273,7 @@ def _packed(beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]) -> 
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
     return ForcedResponse(
-        **ForcedResponse.told(beam, theory, orbits),
+        **ForcedResponse.common_fields(beam, theory, orbits),
         load=load,
         omega=beam.frequency_scale * np.array([o.system.speed(o.frequency) for o in orbits]),
         harmonics=np.array(harmonics),

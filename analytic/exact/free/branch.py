@@ -63,8 +63,10 @@ class OrbitSet:
     nondimensional: tuple[Orbit[Any], ...] = field(repr=False)  # in time t √(EI/mL³)
 
     @staticmethod
-    def told(beam: AnyBlade, theory: Theory, orbits: Sequence[Orbit[Any]]) -> dict[str, Any]:
-        """Return these attributes of orbits of a blade."""
+    def common_fields(
+        beam: AnyBlade, theory: Theory, orbits: Sequence[Orbit[Any]]
+    ) -> dict[str, Any]:
+        """Return the attributes that all sets of orbits of a blade have."""
         return {
             "beam": beam,
             "theory": theory,

@@ -85,7 +85,7 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
     pieces = [[(orbit, "") for orbit in main], *filter(None, [*tongues, end])]
     orbits, marks = zip(*(marked for piece in pieces for marked in piece), strict=True)
     return BackboneBranch(
-        **BackboneBranch.told(of.beam, of.theory, orbits),
+        **BackboneBranch.common_fields(of.beam, of.theory, orbits),
         omega=of.omega,
         mode=of.mode,
         marks=marks,

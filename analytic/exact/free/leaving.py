@@ -241,7 +241,7 @@ def leaving_branch(
     birth = leaving.orbit(amplitude)
     orbits, ended = _followed(leaving, birth, points)
     return LeavingBranch(
-        **LeavingBranch.told(of.beam, of.theory, orbits),
+        **LeavingBranch.common_fields(of.beam, of.theory, orbits),
         omega=of.omega,
         mode=of.mode,
         periods=periods,

@@ -203,7 +203,7 @@ def _packed(of: ModePath, orbits: list[BeamOrbit]) -> Orbits:
     softening, error = of.softening()
     count = max(orbit.harmonics for orbit in orbits)
     return Orbits(
-        **Orbits.told(of.beam, of.theory, orbits),
+        **Orbits.common_fields(of.beam, of.theory, orbits),
         omega=of.omega,
         mode=of.mode,
         omega_n=of.omega_n,
