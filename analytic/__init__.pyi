@@ -1,4 +1,3 @@
-from .beam import AnyBlade as AnyBlade
 from .beam import Beam as Beam
 from .blade import Blade as Blade
 from .exact.driven.forced import forced_response as forced_response
@@ -12,7 +11,7 @@ from .exact.free.stability_limit import stability_limit as stability_limit
 from .exact.linear.campbell import campbell as campbell
 from .exact.linear.modes import damping_ratios as damping_ratios
 from .exact.linear.modes import linear_modes as linear_modes
-from .exact.space.steady_state import steady_state as steady_state
+from .exact.linear.steady_state import steady_state as steady_state
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity
 from .loads import SpeedRipple as SpeedRipple

@@ -205,25 +205,25 @@ class Beam(Variations):
         return Gyration(squared=self.second_moment / self.area, area=self.area)
 
 
-AnyBlade = Beam | Blade
+Blade = Beam | Blade
 """Type of the blades that theory and simulation take."""
 
 
-def require_blade(beam: object) -> None:
+def require_blade(blade: object) -> None:
     """Refuse a value that is neither a Beam nor a Blade."""
-    if not isinstance(beam, AnyBlade):
-        raise TypeError(f"a Beam or a Blade is needed, got {shown(beam)}: as Beam.reference()")
+    if not isinstance(blade, Blade):
+        raise TypeError(f"a Beam or a Blade is needed, got {shown(blade)}: as Beam.reference()")
 
 
 def require_planar(
-    beam: AnyBlade,
+    blade: Blade,
     what: str = "this answer is of",
     remedy: str = "linear_modes, steady_state, periodic_orbits, forced_response or "
     "spin_up_response, which have it in space",
 ) -> None:
     """Refuse a blade whose motion leaves the plane of bending at once."""
-    require_blade(beam)
-    if not beam.is_planar:
+    require_blade(blade)
+    if not blade.is_planar:
         raise ValueError(
             f"{what} a straight blade in its plane, and this one is from stations or has a twist, "
             f"precone, prebend, sweep, kink or offset: take {remedy}"
@@ -231,7 +231,7 @@ def require_planar(
 
 
 def require_out_of_plane(
-    blade: AnyBlade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
+    blade: Blade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
 ) -> OutOfPlane:
     """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
     require_planar(blade)
@@ -267,37 +267,37 @@ def require_out_of_plane(
     return known
 
 
-def undamped(beam: AnyBlade) -> AnyBlade:
+def undamped(blade: Blade) -> Blade:
     """Return the same without damping."""
-    return beam.with_damping(UNDAMPED) if any(beam.unit.damping) else beam
+    return blade.with_damping(UNDAMPED) if any(blade.unit.damping) else blade
 
 
-def require_undamped(beam: AnyBlade, what: str, *, planar: bool = True) -> None:
+def require_undamped(blade: Blade, what: str, *, planar: bool = True) -> None:
     """Refuse a damped blade where `what` has no damping."""
-    (require_planar if planar else require_blade)(beam)
-    if any(beam.unit.damping):
+    (require_planar if planar else require_blade)(blade)
+    if any(blade.unit.damping):
         raise ValueError(
             f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "
             "which has none"
         )
 
 
-def require_steady_state(beam: AnyBlade, omega: float) -> None:
+def require_steady_state(blade: Blade, omega: float) -> None:
     """Refuse a rotation speed `omega` [rad/s] at which no stretched state exists."""
-    if omega >= beam.burst_speed:
+    if omega >= blade.burst_speed:
         raise ValueError(
             f"omega = {omega:g} rad/s leaves no steady state: this beam is stretched without "
-            f"bound at {beam.burst_speed:.6g} rad/s; rotate slower or raise the axial stiffness "
-            f"(EA = {beam.axial_stiffness:g} N)"
+            f"bound at {blade.burst_speed:.6g} rad/s; rotate slower or raise the axial stiffness "
+            f"(EA = {blade.axial_stiffness:g} N)"
         )
 
 
-def warn_if_rpm(beam: AnyBlade, omega: float) -> None:
+def warn_if_rpm(blade: Blade, omega: float) -> None:
     """Warn where a rotation speed `omega` [rad/s] is so high that it may be meant in rpm."""
-    require_blade(beam)
-    ratio = omega / beam.omega_0
+    require_blade(blade)
+    ratio = omega / blade.omega_0
     if ratio > _RPM_SUSPECT:
         warn(
             f"omega = {omega:g} rad/s is {ratio:.0f} times the first natural frequency "
-            f"({beam.omega_0:.3f} rad/s): rpm? {omega:g} rpm are {omega * math.pi / 30:.4g} rad/s"
+            f"({blade.omega_0:.3f} rad/s): rpm? {omega:g} rpm are {omega * math.pi / 30:.4g} rad/s"
         )

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from analytic import AmplitudeNotReachedError, AnyBlade
-from analytic.exact.beam.state import SectionLoads
+from analytic import AmplitudeNotReachedError, Blade
+from analytic.exact.continuum.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
 from analytic.exact.free.orbits import Orbits
@@ -27,7 +27,7 @@ from .labels import GROWTH, dataset
 from .lazily import xr
 from .result_columns import COLUMNS, SWINGS, of_columns
 from .runs.attributes import (
-    beam_attributes,
+    blade_attributes,
     loads_attributes,
     motion_attributes,
     theory_attributes,
@@ -198,7 +198,7 @@ def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
     """Return beam and motion as attributes."""
     motion = response.spin_up
     return {
-        **beam_attributes(response.beam),
+        **blade_attributes(response.blade),
         "omega": motion.omega,
         "ramp_time": motion.ramp_time,
         **motion_attributes(motion),
@@ -227,7 +227,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
     data = _curve(response)
     data = data.assign_attrs(stable_covers=response.covers)
     if (found := response._growth) is None:
-        if response.beam.blade.section.out_of_plane is None or response._in_space:
+        if response.blade.section.out_of_plane is None or response._in_space:
             return data
         return data.assign_attrs(planar=f"Stability is about {response.covers}")
     growth = {
@@ -271,17 +271,17 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
         peaks = np.append(0.0, backbone.amplitude)
         variables["backbone_amplitude"] = ("orbit", peaks, "amplitude |q|/L")
     inputs = response_inputs(
-        response.beam, response.load, None if weight else float(response.omega[0])
+        response.blade, response.load, None if weight else float(response.omega[0])
     )
     known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
     return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **known})
 
 
-def response_inputs(beam: AnyBlade, load: Load, omega: float | None) -> dict[str, Any]:
+def response_inputs(blade: Blade, load: Load, omega: float | None) -> dict[str, Any]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
     return {
-        **beam_attributes(beam),
-        **{f"damping_{name}": value for name, value in asdict(beam.damping).items()},
+        **blade_attributes(blade),
+        **{f"damping_{name}": value for name, value in asdict(blade.damping).items()},
         **loads_attributes([load]),
         "load": type(load).__name__,
         "load_size": load.size,

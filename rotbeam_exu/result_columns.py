@@ -17,16 +17,16 @@ from analytic.exact.free.leaving import LeavingBranch
 from analytic.exact.free.orbits import Orbits
 from analytic.exact.free.stability_limit import StabilityLimit
 from analytic.exact.linear.campbell import Campbell
-from analytic.exact.plane.growth import GrowthOutOfPlane
-from analytic.exact.space.modes import FAMILIES, LinearModes
-from analytic.exact.space.steady_state import SteadyState
+from analytic.exact.linear.space_modes import FAMILIES, LinearModes
+from analytic.exact.linear.steady_state import SteadyState
+from analytic.exact.stability.growth import GrowthOutOfPlane
 from analytic.reduced.tables import PaperTable
 from analytic.spin_up.quiet import QuietRamps
 from analytic.theory import Theory
 
 from .labels import GROWTH, OMEGA, ORBIT, dataset
 from .lazily import xr
-from .runs.attributes import beam_attributes, theory_attributes
+from .runs.attributes import blade_attributes, theory_attributes
 from .runs.oscillation import OSCILLATION, SteadyOscillation
 
 Dims = str | tuple[str, ...]
@@ -35,13 +35,13 @@ Column = tuple[Dims, str, Callable[[Any], Any]]
 
 
 def of_columns(
-    columns: Mapping[str, Column], beam: str, known: tuple[str, ...], result: Any
+    columns: Mapping[str, Column], blade: str, known: tuple[str, ...], result: Any
 ) -> xr.Dataset:
     """Return the Dataset of a result; modes and harmonics count from 1.
 
-    `beam` is the attribute that holds its beam, if any; `known` are those about all of it.
+    `blade` is the attribute that holds its beam, if any; `known` are those about all of it.
     """
-    about = beam_attributes(getattr(result, beam)) if beam else {}
+    about = blade_attributes(getattr(result, blade)) if blade else {}
     if isinstance(theory := getattr(result, "theory", None), Theory):
         about |= theory_attributes(theory)
     data = dataset(

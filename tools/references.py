@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 from rich.progress import track
 
-from analytic import AmplitudeNotReachedError, AnyBlade, Beam, SpinUp, periodic_orbits
+from analytic import AmplitudeNotReachedError, Beam, Blade, SpinUp, periodic_orbits
 from analytic.arrays import FloatArray
 from analytic.input_checks import RotbeamWarning
 from analytic.lazily import interpolate
@@ -68,7 +68,7 @@ def _named(case: Case, theory: Theory) -> str:
     return f"{case.name} {number}" if number else case.name
 
 
-def shipped_backbones() -> dict[str, tuple[AnyBlade, float]]:
+def shipped_backbones() -> dict[str, tuple[Blade, float]]:
     """Return the blades and speeds [rad/s] whose backbones are shipped, by the name of a case."""
     return {
         case.name: (case.blade, case.rotation.omega)
@@ -172,7 +172,7 @@ def amplitudes() -> FloatArray:
     return np.concatenate([low + np.arange(round((up - low) / d)) * d for low, up, d in parts])
 
 
-def backbone(blade: AnyBlade, speed: float) -> tuple[float, FloatArray, float]:
+def backbone(blade: Blade, speed: float) -> tuple[float, FloatArray, float]:
     """Compute ω_n, the curvature at `amplitudes`, and the relative error of ω_NL.
 
     The error is the spline's, halfway between its points, and the change by half as many functions

@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, require_undamped, warn_if_rpm
+from ..blade import Blade
+from ..blade_checks import require_undamped, warn_if_rpm
 from ..input_checks import flag, points_of_beam, times_from_rest
 from ..lazily import integrate
 from ..motion import SpeedChange, require_ramp
@@ -42,7 +43,7 @@ class LinearResponse:
         bends.
     """
 
-    beam: AnyBlade
+    blade: Blade
     spin_up: SpeedChange
     foreshortening: bool
     time: FloatArray
@@ -53,7 +54,7 @@ class LinearResponse:
 
 @one_thread
 def linear_response(
-    beam: AnyBlade,
+    blade: Blade,
     spin_up: SpeedChange,
     times: float | ArrayLike,
     *,
@@ -92,12 +93,12 @@ def linear_response(
     """
     require_ramp(spin_up)
     foreshortening = flag("foreshortening", foreshortening)
-    require_undamped(beam, "the linear frame has no damping")
-    warn_if_rpm(beam, spin_up.fastest)
+    require_undamped(blade, "the linear frame has no damping")
+    warn_if_rpm(blade, spin_up.fastest)
     time = times_from_rest(times)
-    along = points_of_beam("points", points, beam.length)
-    blade = beam.unit
-    of, scale = blade_functions(blade, _FUNCTIONS), beam.frequency_scale
+    along = points_of_beam("points", points, blade.length)
+    blade = blade.unit
+    of, scale = blade_functions(blade, _FUNCTIONS), blade.frequency_scale
     softening = -(blade.setting**2) * (of.mass - of.turning)
     turned = of.centrifugal if foreshortening else softening
     # The modes after the ramp, or at rest: more would cost shorter steps, for 5e-4 of q.
@@ -125,11 +126,11 @@ def linear_response(
         )
     coordinates = found.y[:_MODES, back].T
     across = coordinates @ (of.across.twice(along) @ modes).T
-    set_at = beam.setting_angle
+    set_at = blade.setting_angle
     places = along, math.cos(set_at) * across, math.sin(set_at) * across
     axis = np.stack(np.broadcast_arrays(*places), axis=-1)
     return LinearResponse(
-        beam=beam, spin_up=spin_up, foreshortening=foreshortening, time=time,
-        q=beam.length * coordinates @ (of.tip @ modes), points=beam.length * along,
-        axis=beam.length * axis,
+        blade=blade, spin_up=spin_up, foreshortening=foreshortening, time=time,
+        q=blade.length * coordinates @ (of.tip @ modes), points=blade.length * along,
+        axis=blade.length * axis,
     )  # fmt: skip

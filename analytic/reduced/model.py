@@ -8,7 +8,7 @@ from functools import cached_property
 from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray, NumbersT, lone_as_float
-from ..beam import AnyBlade
+from ..blade import Blade
 from ..input_checks import finite_array, finite_number, not_negative
 from ..warning import warn
 from .any_blade import NormalMode, normal_mode
@@ -25,7 +25,7 @@ class ReducedModel:
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omega : float
         Rotation speed ω [rad/s].
     variant : Variant
@@ -33,7 +33,7 @@ class ReducedModel:
         Eq. 41 with its coefficients, nondimensional.
     """
 
-    beam: AnyBlade
+    blade: Blade
     omega: float
     variant: Variant
     oscillator: Oscillator
@@ -41,12 +41,12 @@ class ReducedModel:
     @property
     def speed_ratio(self) -> float:
         """Ω = ω/ω0, Eq. 40 [-]."""
-        return self.omega / self.beam.omega_0
+        return self.omega / self.blade.omega_0
 
     @property
     def omega_n(self) -> float:
         """Natural frequency of small oscillations [rad/s]."""
-        return self.w_n * self.beam.frequency_scale
+        return self.w_n * self.blade.frequency_scale
 
     @property
     def w_n(self) -> float:
@@ -85,7 +85,7 @@ class ReducedModel:
 
     @cached_property
     def _normal_mode(self) -> NormalMode:
-        return normal_mode(self.beam.unit, self.omega / self.beam.frequency_scale)
+        return normal_mode(self.blade.unit, self.omega / self.blade.frequency_scale)
 
     @cached_property
     def perturbation(self) -> Perturbation:
@@ -132,7 +132,7 @@ class ReducedModel:
         largest = self.oscillator.largest_amplitude
         amplitude = self._within(a, largest, "Eq. 41 has no periodic orbit")
         exact = self.oscillator.exact_frequency(amplitude)
-        found: NumbersT = lone_as_float(self.beam.frequency_scale * exact)
+        found: NumbersT = lone_as_float(self.blade.frequency_scale * exact)
         return found
 
     def response(self, t: ArrayLike, a0: float, phase: float = 0.0) -> FloatArray:

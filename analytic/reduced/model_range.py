@@ -7,7 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..beam import AnyBlade, Beam, require_planar, require_undamped, warn_if_rpm
+from ..beam import Beam
+from ..blade import Blade
+from ..blade_checks import require_planar, require_undamped, warn_if_rpm
 from ..input_checks import rotation_speed
 from ..lazily import optimize
 from ..threads import one_thread
@@ -30,12 +32,12 @@ _HIGHEST_SPEED_RATIO = 4.0
 
 
 @one_thread
-def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
+def reduced_model(blade: Blade, omega: float, variant: str | Variant = "FrE") -> ReducedModel:
     """Return a reduced model of the rotating beam, Eq. 41 with the coefficients of `variant`.
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omega : float
         Rotation speed ω [rad/s], zero or positive.
     variant : str or Variant
@@ -63,36 +65,36 @@ def reduced_model(beam: AnyBlade, omega: float, variant: str | Variant = "FrE") 
     (3.730549, 0.02355)
     """
     omega, variant = rotation_speed(omega), variant_named(variant)
-    require_undamped(beam, "the reduced models have no damping")
-    model = model_at(beam, omega, variant)
-    warn_if_rpm(beam, omega)
+    require_undamped(blade, "the reduced models have no damping")
+    model = model_at(blade, omega, variant)
+    warn_if_rpm(blade, omega)
     warn_beyond_range(model)
     return model
 
 
-def model_at(beam: AnyBlade, omega: float, variant: Variant) -> ReducedModel:
+def model_at(blade: Blade, omega: float, variant: Variant) -> ReducedModel:
     """Return what `reduced_model` returns, without checks and warnings: for scans over ω."""
-    w_bar = omega / beam.frequency_scale
+    w_bar = omega / blade.frequency_scale
     if variant.is_of_any_blade:
-        oscillator = blade_oscillator(beam.unit, w_bar, variant.coriolis).oscillator
-        return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
-    if beam.unit != UNIFORM:
+        oscillator = blade_oscillator(blade.unit, w_bar, variant.coriolis).oscillator
+        return ReducedModel(blade=blade, omega=omega, variant=variant, oscillator=oscillator)
+    if blade.unit != UNIFORM:
         raise ValueError(
             f"{variant.name} is for the uniform beam clamped at the axis, and this blade has "
-            f"{beam.unit.differences}: take FrM"
+            f"{blade.unit.differences}: take FrM"
         )
     energy = energy_coefficients(variant.shape_at(w_bar), variant.axial)
-    square = energy.omega_n_squared(w_bar, beam.slenderness)
+    square = energy.omega_n_squared(w_bar, blade.slenderness)
     if square <= 0.0:
         raise ValueError(
             f"{variant.name} has no oscillation at omega = {omega:g} rad/s: ω_n² = {square:.4g} "
             "EI/(mL³) there; lower omega, or take FrM"
         )
     oscillator = Oscillator(w_n=math.sqrt(square), g1=energy.g1(w_bar), g2=energy.g2)
-    return ReducedModel(beam=beam, omega=omega, variant=variant, oscillator=oscillator)
+    return ReducedModel(blade=blade, omega=omega, variant=variant, oscillator=oscillator)
 
 
-def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
+def softening_speed(blade: Beam, variant: str | Variant = "FrM") -> float | None:
     """Return the speed [rad/s] at which the model turns from hardening to softening.
 
     FrM, and with it the exact inextensible beam, does so at Ω = ω/ω0 = 1.02190; the exact
@@ -106,11 +108,11 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
     >>> print(f"{softening_speed(Beam.reference(), 'FrM'):.4f} rad/s")
     2.9730 rad/s
     """
-    require_planar(beam)
+    require_planar(blade)
     setting = variant_named(variant)
 
     def lambda_omega(speed_ratio: float) -> float:
-        return model_at(beam, speed_ratio * beam.omega_0, setting).lambda_omega
+        return model_at(blade, speed_ratio * blade.omega_0, setting).lambda_omega
 
     speeds = np.linspace(0.0, _HIGHEST_SPEED_RATIO, 21)
     softens = np.array([lambda_omega(s) > 0.0 for s in speeds])
@@ -119,25 +121,25 @@ def softening_speed(beam: Beam, variant: str | Variant = "FrM") -> float | None:
         return None
     first = turns[0]
     ratio = optimize.brentq(lambda_omega, speeds[first], speeds[first + 1], xtol=1e-12)
-    return float(ratio) * beam.omega_0
+    return float(ratio) * blade.omega_0
 
 
 def warn_beyond_range(model: ReducedModel) -> None:
     """Warn where modes or extension that a model leaves out matter, or modes are resonant."""
-    beam, omega, variant = model.beam, model.omega, model.variant
-    scale = beam.frequency_scale
+    blade, omega, variant = model.blade, model.omega, model.variant
+    scale = blade.frequency_scale
     w_bar = omega / scale
-    if omega >= beam.burst_speed:
+    if omega >= blade.burst_speed:
         warn(
-            f"omega = {omega:g} rad/s is above {beam.burst_speed:.6g} rad/s, at which the rotation "
+            f"omega = {omega:g} rad/s is above {blade.burst_speed:.6g} rad/s, at which the rotation "
             f"stretches this beam without bound: {variant.name} does not know of it and oscillates "
             f"about a steady state that the beam does not have; rotate slower"
         )
     elif variant.coriolis:
-        _warn_if_extended(beam, w_bar, model.lambda_omega)
-        others = blade_oscillator(beam.unit, w_bar, True).others
+        _warn_if_extended(blade, w_bar, model.lambda_omega)
+        others = blade_oscillator(blade.unit, w_bar, True).others
         warn_if_resonant(model.omega_n, [scale * other for other in others])
-    elif beam.unit == UNIFORM and omega > _PAPER_SPEED_RATIO * beam.omega_0:
+    elif blade.unit == UNIFORM and omega > _PAPER_SPEED_RATIO * blade.omega_0:
         # The rotating beam's first frequency is never below ω0, so it is needed only here.
         mode = blade_oscillator(UNIFORM, w_bar, False)
         first, second = scale * mode.oscillator.w_n, scale * mode.others[0]
@@ -150,11 +152,11 @@ def warn_beyond_range(model: ReducedModel) -> None:
             )
 
 
-def _warn_if_extended(beam: AnyBlade, w_bar: float, lambda_omega: float) -> None:
+def _warn_if_extended(blade: Blade, w_bar: float, lambda_omega: float) -> None:
     """Warn where the extension, which FrM leaves out, changes λ_ω or ω_n noticeably."""
-    mu = beam.slenderness
+    mu = blade.slenderness
     # A hub adds to the tension, and so to the stretch, and less to what ω_n loses by it.
-    hub = beam.unit.hub
+    hub = blade.unit.hub
     shift, stretch = 4.0 * mu, mu * w_bar**2 * (1.0 + 2.0 * hub)
     size = f"up to μ w_bar² (1 + {2.0 * hub:.3g})" if hub else "about μ w_bar²"
     if shift > _NOTICEABLE_SHIFT or stretch > _NOTICEABLE_STRETCH:

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade
+from ..blade import Blade
 from ..input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ..lazily import linalg, optimize
 from ..ramps import FourierRamp
@@ -42,7 +42,7 @@ class _Task:
     k = 2 and up: the smallest make a ramp with little jerk, of few waves.
     """
 
-    blades: tuple[tuple[AnyBlade, ModesOverSpeed], ...] = field(repr=False)
+    blades: tuple[tuple[Blade, ModesOverSpeed], ...] = field(repr=False)
     """The blade and its modes; if robust those of lower and of higher frequency after it."""
     start: float
     omega: float
@@ -140,7 +140,7 @@ def _tangent(of: Callable[[FloatArray], FloatArray], y: FloatArray) -> FloatArra
 
 @one_thread
 def design_ramp(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     duration: float,
     modes: int = 2,
@@ -162,7 +162,7 @@ def design_ramp(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omega : float
         Speed after the ramp [rad/s].
     duration : float
@@ -210,9 +210,9 @@ def design_ramp(
                 f"rad/s, and the duration is {duration:g} s: take a longer one"
             )
     widest = FourierRamp(start=max(start, omega), omega=omega, ramp_time=duration)
-    others = [beam.in_units(1.0, 1.0, 1.0 + off) for off in (-_OFF, _OFF) if robust]
+    others = [blade.in_units(1.0, 1.0, 1.0 + off) for off in (-_OFF, _OFF) if robust]
     task = _Task(
-        blades=tuple((blade, modes_for(blade, widest, modes)) for blade in (beam, *others)),
+        blades=tuple((blade, modes_for(blade, widest, modes)) for blade in (blade, *others)),
         start=start, omega=omega, duration=duration, count=modes,
         steepest=steepest, largest=bound, robust=robust,
     )  # fmt: skip

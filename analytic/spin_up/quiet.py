@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from ..beam import AnyBlade, require_planar
+from ..blade import Blade
+from ..blade_checks import require_planar
 from ..input_checks import positive, rotation_speed
 from ..lazily import optimize, signal
 from ..motion import SpinUp
@@ -28,7 +29,7 @@ class QuietRamps:
 
     Attributes
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omega : float
         Speed after the ramp [rad/s].
     ramp_times : ndarray (count,)
@@ -39,7 +40,7 @@ class QuietRamps:
         The same by the closed form.
     """
 
-    beam: AnyBlade
+    blade: Blade
     omega: float
     ramp_times: FloatArray
     left: FloatArray
@@ -48,7 +49,7 @@ class QuietRamps:
 
 @one_thread
 def quiet_ramp_times(
-    beam: AnyBlade, omega: float, *, longest: float | None = None, tolerance: float = 1e-6
+    blade: Blade, omega: float, *, longest: float | None = None, tolerance: float = 1e-6
 ) -> QuietRamps:
     """Return the ramp times of Eq. 1 up to `longest` at which the least is left.
 
@@ -57,7 +58,7 @@ def quiet_ramp_times(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omega : float
         Speed after the ramp [rad/s].
     longest : float, optional
@@ -77,33 +78,33 @@ def quiet_ramp_times(
     >>> print(found.ramp_times.round(2), "s leave", found.left.round(4), "L")
     [4.3] s leave [0.0069] L
     """
-    require_planar(beam)
-    omega, period = rotation_speed(omega), 2.0 * math.pi / beam.omega_0
+    require_planar(blade)
+    omega, period = rotation_speed(omega), 2.0 * math.pi / blade.omega_0
     if omega == 0.0:
         raise ValueError("omega = 0 rad/s leaves nothing at any ramp time: take a speed above zero")
     longest = _PERIODS * period if longest is None else positive("longest", longest, "s")
     unit = SpinUp(omega=omega, ramp_time=longest)
-    modes = modes_for(beam, unit, 1)
-    frequency = modes.at(np.array([omega / beam.frequency_scale])).frequency[0, 0]
-    spacing = 2.0 * math.pi / (_A_PERIOD * frequency * beam.frequency_scale)
+    modes = modes_for(blade, unit, 1)
+    frequency = modes.at(np.array([omega / blade.frequency_scale])).frequency[0, 0]
+    spacing = 2.0 * math.pi / (_A_PERIOD * frequency * blade.frequency_scale)
     tried = np.arange(0.5 * period, longest + spacing, spacing)
-    sizes = np.abs(residuals(beam, unit, modes, tried)[0])
+    sizes = np.abs(residuals(blade, unit, modes, tried)[0])
     found = [
-        _refined(beam, unit, modes, tried[k], spacing, tolerance)
+        _refined(blade, unit, modes, tried[k], spacing, tolerance)
         for k in signal.argrelmin(sizes)[0]
     ]
     ramp_times, left = np.array([one for one in found if one[0] <= longest]).reshape(-1, 2).T
     return QuietRamps(
-        beam=beam,
+        blade=blade,
         omega=omega,
         ramp_times=ramp_times,
         left=left,
-        linear=np.abs(residuals(beam, unit, modes, ramp_times)[0]),
+        linear=np.abs(residuals(blade, unit, modes, ramp_times)[0]),
     )
 
 
 def _refined(
-    beam: AnyBlade, ramp: SpinUp, modes: ModesOverSpeed, T: float, spacing: float, tolerance: float
+    blade: Blade, ramp: SpinUp, modes: ModesOverSpeed, T: float, spacing: float, tolerance: float
 ) -> tuple[float, float]:
     """Return the ramp time near `T` at which the exact transient leaves the least, and what.
 
@@ -112,11 +113,11 @@ def _refined(
     """
 
     def form(at: float) -> complex:
-        return complex(residuals(beam, ramp, modes, np.array([at]))[0, 0])
+        return complex(residuals(blade, ramp, modes, np.array([at]))[0, 0])
 
     def lacking(at: float) -> complex:
         spin_up = SpinUp(omega=ramp.omega, ramp_time=at)
-        return complex(exact_residuals(beam, spin_up, 1, tolerance)[0][0]) - form(at)
+        return complex(exact_residuals(blade, spin_up, 1, tolerance)[0][0]) - form(at)
 
     def left(at: float, T: float, lack: complex, slope: complex) -> float:
         return abs(form(at) + lack + slope * (at - T)) ** 2

@@ -20,7 +20,8 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
-from ..beam import AnyBlade, require_planar
+from ..blade import Blade
+from ..blade_checks import require_planar
 from ..exact.driven.response import spin_up_response
 from ..exact.linear.modes import driven_modes
 from ..input_checks import finite_array, flag, positive
@@ -111,7 +112,7 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
 
 @one_thread
 def residual_amplitude(
-    beam: AnyBlade,
+    blade: Blade,
     spin_up: SpeedChange,
     ramp_times: ArrayLike | None = None,
     *,
@@ -126,7 +127,7 @@ def residual_amplitude(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     spin_up : SpinUp, FourierRamp or SpeedTable
     ramp_times : array_like, optional
         Durations [s] of the same motion, stretched in time; otherwise its own.
@@ -153,7 +154,7 @@ def residual_amplitude(
     >>> print(f"{residual_amplitude(beam, spin_up, exact=True):.4f} L by the exact transient")
     0.1655 L by the exact transient
     """
-    require_planar(beam)
+    require_planar(blade)
     require_ramp(spin_up)
     corrected = flag("corrected", corrected)
     if flag("exact", exact):
@@ -162,30 +163,30 @@ def residual_amplitude(
                 "exact=True is of the motion's own ramp time and of all modes: leave out "
                 "ramp_times and corrected"
             )
-        return _exact(beam, spin_up, tolerance)
+        return _exact(blade, spin_up, tolerance)
     times = finite_array("ramp_times", spin_up.ramp_time if ramp_times is None else ramp_times, "s")
     for T in times.ravel()[times.ravel() <= 0.0]:
         positive("ramp_times", T, "s")
-    modes = modes_for(beam, spin_up, 1)
-    left = np.abs(residuals(beam, spin_up, modes, times.ravel())[0]).reshape(times.shape)
+    modes = modes_for(blade, spin_up, 1)
+    left = np.abs(residuals(blade, spin_up, modes, times.ravel())[0]).reshape(times.shape)
     if corrected:
-        left = _on_the_backbone(beam, spin_up.omega, left)
+        left = _on_the_backbone(blade, spin_up.omega, left)
     return float(left) if ramp_times is None else left
 
 
-def modes_for(beam: AnyBlade, spin_up: SpeedChange, count: int) -> ModesOverSpeed:
+def modes_for(blade: Blade, spin_up: SpeedChange, count: int) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
-    require_planar(beam)
+    require_planar(blade)
     # Rounded up, so that nearly equal speeds share one series.
-    top = max(1.0, math.ceil(10.0 * spin_up.fastest / beam.frequency_scale) / 10.0)
-    return modes_over_speed(beam.unit, top, count)
+    top = max(1.0, math.ceil(10.0 * spin_up.fastest / blade.frequency_scale) / 10.0)
+    return modes_over_speed(blade.unit, top, count)
 
 
 def residuals(
-    beam: AnyBlade, spin_up: SpeedChange, modes: ModesOverSpeed, ramp_times: FloatArray
+    blade: Blade, spin_up: SpeedChange, modes: ModesOverSpeed, ramp_times: FloatArray
 ) -> ComplexArray:
     """Return Z (modes, ramp times) of the motion stretched to each of the `ramp_times` [s]."""
-    wave = _waves(beam, spin_up, modes, float(ramp_times.max(initial=0.0)))
+    wave = _waves(blade, spin_up, modes, float(ramp_times.max(initial=0.0)))
     at_end = [
         np.exp(np.multiply.outer(ramp_times, exponent)) @ force
         for exponent, force in zip(wave.exponent, wave.force, strict=True)
@@ -193,10 +194,10 @@ def residuals(
     return np.asarray(wave.tip[:, -1:] * np.stack(at_end))
 
 
-def swing(beam: AnyBlade, spin_up: SpeedChange, modes: ModesOverSpeed, pieces: int) -> FloatArray:
+def swing(blade: Blade, spin_up: SpeedChange, modes: ModesOverSpeed, pieces: int) -> FloatArray:
     """Return the tip's deflection over L at the ends of so many equal pieces of the motion."""
     T = spin_up.ramp_time
-    wave = _waves(beam, spin_up, modes, T, pieces)
+    wave = _waves(blade, spin_up, modes, T, pieces)
     exponent = T * wave.exponent.reshape(*wave.exponent.shape[:1], -1, _POINTS)
     parts = np.exp(exponent) * wave.force.reshape(exponent.shape)
     so_far = np.cumsum(parts.sum(axis=2), axis=1)
@@ -219,10 +220,10 @@ class _Waves(NamedTuple):
 
 
 def _waves(
-    beam: AnyBlade, spin_up: SpeedChange, modes: ModesOverSpeed, longest: float, even: int = 1
+    blade: Blade, spin_up: SpeedChange, modes: ModesOverSpeed, longest: float, even: int = 1
 ) -> _Waves:
     """Return the modes along a motion that takes `longest` [s], in a multiple of `even` pieces."""
-    scale, own = beam.frequency_scale, spin_up.ramp_time
+    scale, own = blade.frequency_scale, spin_up.ramp_time
     fast = float(modes.at(np.array([spin_up.fastest / scale])).frequency.max())
     pieces = math.ceil(fast * scale * longest / _A_PANEL)
     pieces = max(pieces, math.ceil(own / spin_up.shortest_wave))
@@ -247,42 +248,44 @@ def _waves(
     )
 
 
-def _exact(beam: AnyBlade, spin_up: SpeedChange, tolerance: float) -> float:
+def _exact(blade: Blade, spin_up: SpeedChange, tolerance: float) -> float:
     """Return half peak to peak of the tip over L in the first period after the exact transient."""
-    period = 2.0 * math.pi / float(driven_modes(beam, spin_up.omega).frequencies[0])
+    period = 2.0 * math.pi / float(driven_modes(blade, spin_up.omega).frequencies[0])
     T = spin_up.ramp_time
     during, after = np.linspace(0.0, T, 33), np.linspace(T, T + 1.1 * period, 300)
-    response = spin_up_response(beam, spin_up, np.append(during, after), tolerance=tolerance)
-    return float(np.ptp(response.q[during.size :])) / (2.0 * beam.length)
+    response = spin_up_response(blade, spin_up, np.append(during, after), tolerance=tolerance)
+    return float(np.ptp(response.q[during.size :])) / (2.0 * blade.length)
 
 
 def exact_residuals(
-    beam: AnyBlade, ramp: SpeedChange, count: int = 1, tolerance: float = 1e-6
+    blade: Blade, ramp: SpeedChange, count: int = 1, tolerance: float = 1e-6
 ) -> tuple[ComplexArray, float]:
     """Return Z (count,) of the first modes over L by the exact transient, for small oscillations.
 
     By least squares over the first period after the ramp, of q = -Im Σ Z_k exp((iω_k - d_k)(t - T))
     with one mode more, whose share is so kept out of the others. And the largest |q|/L of the ramp.
     """
-    decay = modes_for(beam, ramp, count + 1).at(np.array([ramp.omega / beam.frequency_scale])).decay
+    decay = (
+        modes_for(blade, ramp, count + 1).at(np.array([ramp.omega / blade.frequency_scale])).decay
+    )
     functions = max(20, 2 * (count + 1))
-    omegas = driven_modes(beam, ramp.omega, count + 1, functions=functions).frequencies
+    omegas = driven_modes(blade, ramp.omega, count + 1, functions=functions).frequencies
     # The times before tell how large the motion is, of which the tolerance is a share.
     during = np.linspace(0.0, ramp.ramp_time, _DURING)
     after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)
     times = np.append(during, ramp.ramp_time + after)
-    response = spin_up_response(beam, ramp, times, tolerance=tolerance)
-    wave = np.exp(np.outer(after, 1j * omegas - decay[:, 0] * beam.frequency_scale))
+    response = spin_up_response(blade, ramp, times, tolerance=tolerance)
+    wave = np.exp(np.outer(after, 1j * omegas - decay[:, 0] * blade.frequency_scale))
     shares = np.concatenate((-wave.imag, -wave.real), axis=1)
-    q = response.q / beam.length
+    q = response.q / blade.length
     found = np.linalg.lstsq(shares, q[during.size :], rcond=None)[0]
     left = np.asarray(found[:count] + 1j * found[count + 1 : -1])
     return left, float(np.abs(q[: during.size]).max())
 
 
-def _on_the_backbone(beam: AnyBlade, omega: float, linear: FloatArray) -> FloatArray:
+def _on_the_backbone(blade: Blade, omega: float, linear: FloatArray) -> FloatArray:
     """Return the amplitudes of orbits that have the action of linear ones."""
-    oscillator = blade_oscillator(beam.unit, omega / beam.frequency_scale, True).oscillator
+    oscillator = blade_oscillator(blade.unit, omega / blade.frequency_scale, True).oscillator
     a = np.linspace(0.0, min(_LARGEST, oscillator.largest_amplitude), 241)
     same = np.sqrt(2.0 * oscillator.action(a) / oscillator.w_n)
     return np.asarray(interpolate.PchipInterpolator(same, a, extrapolate=False)(linear))

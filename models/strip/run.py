@@ -25,10 +25,10 @@ import numpy as np
 
 from analytic import Beam, Rectangle, SpinUp, Theory, linear_modes
 from analytic.arrays import FloatArray
-from analytic.exact.beam.steady import on_more
+from analytic.exact.continuum.planar_rotation import on_more
+from analytic.exact.continuum.rotation import space_continuum
 from analytic.exact.driven.transient import integrated
-from analytic.exact.space.modes import flap_shape
-from analytic.exact.space.steady import space_continuum
+from analytic.exact.linear.space_modes import flap_shape
 from analytic.motion import SpeedChange
 from analytic.threads import one_thread
 from rotbeam_exu import kicked, simulate

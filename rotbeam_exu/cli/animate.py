@@ -74,10 +74,10 @@ def animate(
     kept = None if run is None else load(run)
     if kept is None:
         file = configured(config, "motion", "numerics.duration", "theory")
-        beam, law = file.beam, theory_of(file, theory)
+        blade, law = file.blade, theory_of(file, theory)
         spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
         speed, ramp = spin_up.omega, spin_up.ramp_time
-        usual = max(chosen_times(beam, 12.0)[0], 2.0 * ramp)
+        usual = max(chosen_times(blade, 12.0)[0], 2.0 * ramp)
         known = file.numerics.get("duration", usual) if duration is None else duration
         duration = positive("duration", known, "s")
     elif [one for one in (omega, ramp_time, duration, beside, theory, config) if one is not None]:
@@ -86,9 +86,9 @@ def animate(
             "--theory and --config"
         )
     else:
-        beam, speed, ramp = beam_of(kept.attrs), kept.attrs["omega"], kept.attrs["ramp_time"]
+        blade, speed, ramp = beam_of(kept.attrs), kept.attrs["omega"], kept.attrs["ramp_time"]
         duration = float(kept["time"][-1])
-    slower = max(1.0, float(f"{1.0 / slower_than_paper(beam):.1e}"))
+    slower = max(1.0, float(f"{1.0 / slower_than_paper(blade):.1e}"))
     pictures = duration * slower * rate
     if pictures < 1.0:
         raise ValueError(
@@ -101,21 +101,21 @@ def animate(
     from ..datasets import dataset_of
     from ..figures import animation
 
-    corners(beam, np.linspace(0.0, beam.length, 41), height, width)
+    corners(blade, np.linspace(0.0, blade.length, 41), height, width)
     if target.suffix != ".pvd":
         animation.check_format(target)
     require_writable(target, force=force)
     linear = None
     if kept is None:
         times = np.arange(0.0, duration * (1.0 + 1e-12), 1.0 / (rate * slower))
-        points = np.linspace(0.0, beam.length, 41)
+        points = np.linspace(0.0, blade.length, 41)
         with bar("integrating"):
             exact = spin_up_response(
-                beam, spin_up, times, tolerance=1e-5, points=points, theory=law
+                blade, spin_up, times, tolerance=1e-5, points=points, theory=law
             )
             data = dataset_of(exact)
             if beside:
-                linear = dataset_of(linear_response(beam, spin_up, times, points=points))
+                linear = dataset_of(linear_response(blade, spin_up, times, points=points))
     else:
         sampled = float(kept["time"][1] - kept["time"][0])
         data = kept.isel(time=slice(None, None, max(1, round(1.0 / (rate * slower * sampled)))))

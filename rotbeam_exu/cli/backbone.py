@@ -10,7 +10,7 @@ import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.warning import warn
 
 from .job import Flag
@@ -82,14 +82,16 @@ def backbone(
     models = []
     for name in names:
         try:
-            models.append(analytic.reduced_model(file.beam, omega, name))
+            models.append(analytic.reduced_model(file.blade, omega, name))
         except ValueError as error:
             refused.append((name, str(error)))
     if told and not models:
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
     if exact:
-        orbits, failure = _exact(file.beam, omega, amplitude, mode, functions=functions, theory=law)
+        orbits, failure = _exact(
+            file.blade, omega, amplitude, mode, functions=functions, theory=law
+        )
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
         columns |= _exact_columns(orbits, amplitude, len(models))
@@ -120,12 +122,12 @@ def _grouped(refused: list[Refusal]) -> list[str]:
 
 
 def _exact(
-    beam: AnyBlade, omega: float, amplitude: list[float], mode: str, **how: Any
+    blade: Blade, omega: float, amplitude: list[float], mode: str, **how: Any
 ) -> tuple[Orbits, str]:
     """Return the orbits that were found, and why others were not."""
     try:
         with bar("exact orbits"):
-            return analytic.periodic_orbits(beam, omega, amplitude, mode, **how), ""
+            return analytic.periodic_orbits(blade, omega, amplitude, mode, **how), ""
     except analytic.AmplitudeNotReachedError as error:
         if error.orbits is None:
             raise

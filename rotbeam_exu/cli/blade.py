@@ -18,7 +18,7 @@ from .options import TheoryPairs, theory_of
 from .output import bar, formatted, print_columns, print_line, print_note
 
 if TYPE_CHECKING:
-    from analytic.exact.space.modes import LinearModes
+    from analytic.exact.linear.space_modes import LinearModes
 
 _COUNT = 6  # modes
 
@@ -42,25 +42,25 @@ def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
     $ rotbeam blade --config beam.toml
     """
     file = configured(config, "motion.omega", "theory")
-    beam, omega = file.beam.blade, file.motion.get("omega", 0.0)
+    blade, omega = file.blade, file.motion.get("omega", 0.0)
     law = theory_of(file, theory)
     with bar("modes"):
-        rest = analytic.linear_modes(beam, 0.0, _COUNT, theory=law)
+        rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=law)
         turning = {}
         if omega:
-            modes = analytic.linear_modes(beam, omega, _COUNT, theory=law)
+            modes = analytic.linear_modes(blade, omega, _COUNT, theory=law)
             turning[f"at {omega:g} rad/s [Hz]"] = _named(modes, rest) / (2.0 * np.pi)
-        section, others = beam.section, {}
+        section, others = blade.section, {}
         if isinstance(section, StationSection):
             (way,) = set(get_args(Interpolation)) - {section.interpolation}
-            others[way] = _changes(beam, section, way, law, rest)
-    place, mass = beam.unit.inertia(32)
-    moment = float(place @ mass) * beam.mass_per_length * beam.length**2
-    print_line("length", f"{beam.length:g} m, on a hub of {beam.hub_radius:g} m")
-    print_line("mass", f"{beam.mass:.7g} kg")
+            others[way] = _changes(blade, section, way, law, rest)
+    place, mass = blade.unit.inertia(32)
+    moment = float(place @ mass) * blade.mass_per_length * blade.length**2
+    print_line("length", f"{blade.length:g} m, on a hub of {blade.hub_radius:g} m")
+    print_line("mass", f"{blade.mass:.7g} kg")
     print_line("first moment", f"{moment:.7g} kg m about the clamp")
-    print_line("center of mass", f"{moment / beam.mass:.5g} m from the clamp")
-    _print_section(beam)
+    print_line("center of mass", f"{moment / blade.mass:.5g} m from the clamp")
+    _print_section(blade)
     print_columns(
         {
             "mode": list(rest.names),
@@ -79,10 +79,10 @@ def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
 
 
 def _changes(
-    beam: Blade, section: StationSection, way: Interpolation, theory: Theory, rest: LinearModes
+    blade: Blade, section: StationSection, way: Interpolation, theory: Theory, rest: LinearModes
 ) -> FloatArray:
     """Return the relative changes of frequencies [%] with the other interpolation."""
-    other = replace(beam, section=replace(section, interpolation=way))
+    other = replace(blade, section=replace(section, interpolation=way))
     try:
         modes = analytic.linear_modes(other, 0.0, _COUNT, theory=theory)
     except ValueError:  # it did not settle
@@ -96,9 +96,9 @@ def _named(modes: LinearModes, like: LinearModes) -> FloatArray:
     return np.array([frequencies.get(name, np.nan) for name in like.names])
 
 
-def _print_section(beam: Blade) -> None:
+def _print_section(blade: Blade) -> None:
     """Print stiffness and mass at the root, at the tip, and their extremes."""
-    section = beam.section
+    section = blade.section
     if isinstance(section, StationSection):
         print_line("stations", f"{len(section.x)}")
         values = dict(zip(STIFFNESSES, section.stiffnesses.T, strict=True))
@@ -108,7 +108,7 @@ def _print_section(beam: Blade) -> None:
         named = {"EA": "axial_stiffness", "EI": "bending_stiffness", "m": "mass_per_length"}
         profiles = section.profiles()
         values = {
-            name: evaluated(in_units(profiles[long], beam.length, 1.0), x)
+            name: evaluated(in_units(profiles[long], blade.length, 1.0), x)
             for name, long in named.items()
         }
     units = {"E": "N m^2", "G": "N", "m": "kg/m"} | {"EA": "N", "GJ": "N m^2"}

@@ -71,13 +71,13 @@ def campbell(
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
     file = configured(config, "motion.omega", "theory")
-    beam = shape.of(file.beam)
-    usual = 2.0 * file.motion.get("omega", chosen_speeds(beam, 6.0)[0])
+    blade = shape.of(file.blade)
+    usual = 2.0 * file.motion.get("omega", chosen_speeds(blade, 6.0)[0])
     highest = usual if omega_max is None else omega_max
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
     with bar("modes"):
-        diagram = analytic.campbell(beam, speeds, count, orders, theory=theory_of(file, theory))
+        diagram = analytic.campbell(blade, speeds, count, orders, theory=theory_of(file, theory))
     if out is None:
         _print(diagram)
         return

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from analytic import AnyBlade
+from analytic import Blade
 
 from .. import paper
 from ..fem.lazily import require_exudyn
@@ -53,28 +53,28 @@ def explore(
     if out is None:
         out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
     require_writable(out, force=force, ending=".html")
-    beam = configured(config).beam
-    options = {} if config is None else _scaled(beam)
+    blade = configured(config).blade
+    options = {} if config is None else _scaled(blade)
     with Workers(cache=cache, jobs=jobs).counted("exact orbits and spin-ups") as how:
-        data = explorer_data(beam, **how, **options)
+        data = explorer_data(blade, **how, **options)
     write_text(explorer_page(data), out)
     print_text(f"written {out}, {out.stat().st_size / 1e6:.1f} MB: open it in a browser")
 
 
-def _scaled(beam: AnyBlade) -> dict[str, Any]:
+def _scaled(blade: Blade) -> dict[str, Any]:
     """Return the page's speeds, the points' grid, their end and step, scaled by ω_0."""
     from ..explorer import EXACT_RAMP_TIMES, OMEGAS
 
-    (interval,) = chosen_speeds(beam, OMEGAS[1])
+    (interval,) = chosen_speeds(blade, OMEGAS[1])
     # Points are seen where the slider stops: on its grid, not beside it.
     omegas = [interval * round(omega / OMEGAS[1]) for omega in paper.SPEEDS]
-    ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
-    motion = grid_motion(beam, omegas, ramp_times)
+    ramp_times = chosen_times(blade, *paper.RAMP_TIMES, digits=4)
+    motion = grid_motion(blade, omegas, ramp_times)
     return {
         "omegas": [interval * i for i in range(len(OMEGAS))],
         "finite_element_omegas": omegas,
         "ramp_times": ramp_times,
-        "exact_ramp_times": chosen_times(beam, *EXACT_RAMP_TIMES, digits=4),
+        "exact_ramp_times": chosen_times(blade, *EXACT_RAMP_TIMES, digits=4),
         "duration": motion.duration,
         "step": motion.step,
     }

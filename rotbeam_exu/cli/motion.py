@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from cyclopts import Parameter
 
-from analytic import AnyBlade, Beam, SpinUp
+from analytic import Beam, Blade, SpinUp
 from analytic.input_checks import positive
 from analytic.loads import Load
 from analytic.warning import warn
@@ -44,14 +44,14 @@ class ChosenMotion:
     step: float
 
 
-def chosen_speeds(beam: AnyBlade, *of_paper: float) -> list[float]:
+def chosen_speeds(blade: Blade, *of_paper: float) -> list[float]:
     """Return speeds [rad/s] of the paper's beam, scaled to the same ω/ω_0, to two digits."""
-    return [_rounded(omega / slower_than_paper(beam), 2) for omega in of_paper]
+    return [_rounded(omega / slower_than_paper(blade), 2) for omega in of_paper]
 
 
-def chosen_times(beam: AnyBlade, *of_paper: float, digits: int = 2) -> list[float]:
+def chosen_times(blade: Blade, *of_paper: float, digits: int = 2) -> list[float]:
     """Return times [s] of the paper's beam, scaled to the same ω_0 t, to two digits or more."""
-    return [_rounded(time * slower_than_paper(beam), digits) for time in of_paper]
+    return [_rounded(time * slower_than_paper(blade), digits) for time in of_paper]
 
 
 def refuse_rest(*speeds: float) -> None:
@@ -64,7 +64,7 @@ def refuse_rest(*speeds: float) -> None:
 
 
 def chosen_motion(
-    beam: AnyBlade,
+    blade: Blade,
     *,
     omega: float | None = None,
     ramp_time: float | None = None,
@@ -78,14 +78,14 @@ def chosen_motion(
     steps. A given duration or step is kept and the other fitted to it; a chosen duration leaves
     five periods after the ramp.
     """
-    omega = chosen_speeds(beam, _OMEGA)[0] if omega is None else omega
-    ramp_time = chosen_times(beam, _RAMP_TIME)[0] if ramp_time is None else ramp_time
+    omega = chosen_speeds(blade, _OMEGA)[0] if omega is None else omega
+    ramp_time = chosen_times(blade, _RAMP_TIME)[0] if ramp_time is None else ramp_time
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
     step = None if step is None else positive("step", step, "s")
-    fine = _one_two_five(min(_STEP * slower_than_paper(beam), spin_up.ramp_time / _STEPS_PER_RAMP))
+    fine = _one_two_five(min(_STEP * slower_than_paper(blade), spin_up.ramp_time / _STEPS_PER_RAMP))
     if duration is None:
-        enough = spin_up.ramp_time + _STEADY_PERIODS * 2.0 * math.pi / beam.omega_0
-        duration = chosen_times(beam, _DURATION)[0]
+        enough = spin_up.ramp_time + _STEADY_PERIODS * 2.0 * math.pi / blade.omega_0
+        duration = chosen_times(blade, _DURATION)[0]
         if duration < enough:
             duration = _rounded(enough, 2, up=True)
         if step is not None:
@@ -105,7 +105,7 @@ def configured(config: Path | None, *uses: str) -> RunFile:
     `uses` names tables, as "loads", or keys of a table, as "motion.omega". A table of which the
     command uses nothing is refused; a warning names the other keys of a table that it uses.
     """
-    file = RunFile(beam=Beam.reference()) if config is None else load_run_file(config)
+    file = RunFile(blade=Beam.reference()) if config is None else load_run_file(config)
     kept: dict[str, Any] = {}
     for name in (one.name for one in fields(file) if one.name not in ("beam", *uses)):
         given = getattr(file, name)
@@ -134,11 +134,11 @@ def omega_of(file: RunFile, omega: float | None) -> float:
 def motion_of(file: RunFile, **options: float | None) -> ChosenMotion:
     """Return `chosen_motion` of the options given, then of the file's [motion]."""
     given = {name: value for name, value in options.items() if value is not None}
-    return chosen_motion(file.beam, **{**file.motion, **given})
+    return chosen_motion(file.blade, **{**file.motion, **given})
 
 
 def grid_motion(
-    beam: AnyBlade,
+    blade: Blade,
     omegas: Sequence[float],
     ramp_times: Sequence[float],
     *,
@@ -151,13 +151,13 @@ def grid_motion(
     checked = [positive("ramp_time", time, "s") for time in ramp_times]
     longest, shortest = max(checked, default=None), min(checked, default=None)
     if step is None:
-        step = chosen_motion(beam, ramp_time=shortest, duration=duration).step
-    return chosen_motion(beam, ramp_time=longest, duration=duration, step=step)
+        step = chosen_motion(blade, ramp_time=shortest, duration=duration).step
+    return chosen_motion(blade, ramp_time=longest, duration=duration, step=step)
 
 
-def slower_than_paper(beam: AnyBlade) -> float:
+def slower_than_paper(blade: Blade) -> float:
     """Ratio of the paper's natural frequency to the beam's."""
-    return Beam.reference().omega_0 / beam.omega_0
+    return Beam.reference().omega_0 / blade.omega_0
 
 
 def _whole_steps(duration: float, step: float) -> int:
@@ -244,13 +244,13 @@ class Discretization:
         """Formulation and mesh as part of a file's name."""
         return f"{self.element}".rpartition(":")[2] + f"-{self.elements}"
 
-    def case(self, beam: AnyBlade, motion: ChosenMotion, loads: Sequence[Load] = ()) -> RunCase:
+    def case(self, blade: Blade, motion: ChosenMotion, loads: Sequence[Load] = ()) -> RunCase:
         """Return the case of a motion, whose step and duration are chosen."""
         from ..fem.case import RunCase
 
         mesh: dict[str, Any] = {"elements": self.elements, "frame": self.frame}
         return RunCase(
-            beam=beam, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
+            blade=blade, spin_up=motion.spin_up, duration=motion.duration, step=motion.step,
             element=element_of(f"{self.element}"), loads=loads, **mesh,
         )  # fmt: skip
 
@@ -286,5 +286,5 @@ class Driving:
             step=numerics.step,
         )  # fmt: skip
         refuse_rest(motion.spin_up.omega)
-        beam = self.dampings.on(file.beam)
-        return numerics.case(beam, motion, self.chosen(file.loads))
+        blade = self.dampings.on(file.blade)
+        return numerics.case(blade, motion, self.chosen(file.loads))

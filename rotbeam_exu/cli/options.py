@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter, Token
 
-from analytic import AnyBlade, Damping, Theory
+from analytic import Blade, Damping, Theory
 from analytic.description import kinds_of
 from analytic.loads import Load
 from analytic.section_shapes import SectionShape
@@ -181,15 +181,15 @@ class SectionOptions:
         shape = self.section or "given"
         return shape if self.ratio is None else f"{shape}-{self.ratio:g}"
 
-    def of(self, beam: AnyBlade) -> AnyBlade:
+    def of(self, blade: Blade) -> Blade:
         """Return the beam with the section asked for, by default its own."""
         kind = _shapes().get(self.section)
         if self.ratio is None:
-            return beam if kind is None else beam.with_shape(kind())
+            return blade if kind is None else blade.with_shape(kind())
         if kind is None or "ratio" not in (field.name for field in fields(kind)):
             raise ValueError("--ratio is height over width: give it with a --section that has both")
         # With another material than the beam's, of which the blade knows none.
-        return beam.blade.with_shape(kind(ratio=self.ratio))
+        return blade.with_shape(kind(ratio=self.ratio))
 
 
 def option_of(kind: type[Load]) -> str:
@@ -276,12 +276,12 @@ class Dampings:
     damping_ratio: Number | None = None
     external_damping: Number | None = None
 
-    def on(self, beam: AnyBlade) -> AnyBlade:
+    def on(self, blade: Blade) -> Blade:
         """Return the blade with this damping."""
         if self.damping_ratio is not None and self.external_damping is not None:
             raise ValueError("give --damping-ratio or --external-damping, not both")
         if self.damping_ratio is not None:
-            return beam.with_damping(Damping.from_ratio(beam, 1, self.damping_ratio))
+            return blade.with_damping(Damping.from_ratio(blade, 1, self.damping_ratio))
         if self.external_damping is not None:
-            return beam.with_damping(Damping(external=self.external_damping))
-        return beam
+            return blade.with_damping(Damping(external=self.external_damping))
+        return blade

@@ -11,7 +11,7 @@ from .. import paper
 from ..fem.lazily import require_exudyn
 from ..files.results import writable_folder
 from ..lazily import xr
-from ..runs.attributes import beam_attributes
+from ..runs.attributes import blade_attributes
 from .job import Results, refuse_to_replace
 from .motion import ChosenMotion, chosen_speeds, chosen_times, configured, grid_motion, motion_of
 from .options import Number, Workers, numbered
@@ -117,27 +117,27 @@ def compare(
 
     require_exudyn()
     file = configured(config, "motion")
-    beam = file.beam.uniform
-    if beam is None:
+    blade = file.blade.uniform
+    if blade is None:
         raise ValueError(
             "the paper's models, which compare needs, are for the uniform beam of [beam] only: for "
             "a [blade] take rotbeam backbone --variant FrM --exact"
         )
-    mine = {} if config is None else beam_attributes(beam)
-    omegas = chosen_speeds(beam, *paper.SPEEDS)
-    ramp_times = chosen_times(beam, *paper.RAMP_TIMES, digits=4)
-    motion, main = _even(grid_motion(beam, omegas, ramp_times)), motion_of(file)
-    models = comparison.model_budget(beam, omegas=omegas, amplitudes=(amplitude,))
+    mine = {} if config is None else blade_attributes(blade)
+    omegas = chosen_speeds(blade, *paper.SPEEDS)
+    ramp_times = chosen_times(blade, *paper.RAMP_TIMES, digits=4)
+    motion, main = _even(grid_motion(blade, omegas, ramp_times)), motion_of(file)
+    models = comparison.model_budget(blade, omegas=omegas, amplitudes=(amplitude,))
     target = results.out / "budget_models.nc"
     refuse_to_replace(models.assign_attrs(mine), target, force=results.force)
     with workers.counted("spin-ups") as how:
         data = {
             "figure_14": comparison.figure_14(
-                beam, omegas=omegas, ramp_times=ramp_times, duration=motion.duration,
+                blade, omegas=omegas, ramp_times=ramp_times, duration=motion.duration,
                 step=motion.step, **how,
             ),
             "figure_15": comparison.figure_15(
-                beam, omega=main.spin_up.omega, ramp_time=main.spin_up.ramp_time,
+                blade, omega=main.spin_up.omega, ramp_time=main.spin_up.ramp_time,
                 duration=main.duration, step=main.step,
             ),
             "budget_models": models,

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+from analytic.blade_checks import require_planar
 
 import analytic
-from analytic import AnyBlade, SpinUp
-from analytic.beam import require_planar
+from analytic import Blade, SpinUp
 from analytic.input_checks import positive, whole_number
 
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
-from ..runs.attributes import beam_attributes
+from ..runs.attributes import blade_attributes
 from .job import Results
 from .motion import Discretization, chosen_times, configured, motion_of, refuse_rest
 from .options import Config, Number, SteadySpeed, Whole
@@ -54,16 +54,18 @@ def ramp(
     from .. import comparison
 
     file = configured(config, "motion.omega", "numerics.element", "numerics.elements")
-    beam = file.beam
-    require_planar(beam, "ramp is for", "rotbeam reference, which has one ramp in space")
+    blade = file.blade
+    require_planar(blade, "ramp is for", "rotbeam reference, which has one ramp in space")
     motion = motion_of(file, omega=omega)
     omega = motion.spin_up.omega
-    case = Discretization(element=element, elements=elements).over(file.numerics).case(beam, motion)
+    case = (
+        Discretization(element=element, elements=elements).over(file.numerics).case(blade, motion)
+    )
     refuse_rest(omega)
-    longest = chosen_times(beam, 10.0)[0] if longest is None else positive("longest", longest)
+    longest = chosen_times(blade, 10.0)[0] if longest is None else positive("longest", longest)
     whole_number("finite-element-points", finite_element_points, least=0)
     inputs = {
-        **beam_attributes(beam), "omega": omega, "longest": longest, "points": points,
+        **blade_attributes(blade), "omega": omega, "longest": longest, "points": points,
         "finite_element_points": finite_element_points,
         **{name: case.describe()[name] for name in ("element", "element_options", "elements")},
     }  # fmt: skip
@@ -77,19 +79,19 @@ def ramp(
     def computed() -> xr.Dataset:
         with counter("transients") as progress:
             return comparison.residual(
-                beam, omega, longest=longest, points=points, element=case.element,
+                blade, omega, longest=longest, points=points, element=case.element,
                 elements=case.elements, finite_element_points=finite_element_points,
                 progress=progress,
             )  # fmt: skip
 
     results.job(
         f"ramp-omega-{omega:g}-longest-{longest:g}", inputs, computed,
-        lambda data, _: _print(beam, omega, longest, data),
+        lambda data, _: _print(blade, omega, longest, data),
         draw=lambda figures, data: figures.residual(data),
     )  # fmt: skip
 
 
-def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> None:
+def _print(blade: Blade, omega: float, longest: float, data: xr.Dataset) -> None:
     """Print the quiet ramps, then the points."""
     one = SpinUp(omega=omega, ramp_time=longest)
     quiet = data["quiet_ramp_time"].to_numpy()
@@ -98,7 +100,7 @@ def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> No
         {
             "T [s]": formatted(quiet, ".4f"),
             "residual/L": formatted(data["quiet"], ".2e"),
-            "closed form": formatted(left(beam, one, quiet), ".2e"),
+            "closed form": formatted(left(blade, one, quiet), ".2e"),
         },
         title="Quiet ramp times of Eq. 1",
     )
@@ -112,8 +114,8 @@ def _print(beam: AnyBlade, omega: float, longest: float, data: xr.Dataset) -> No
     print_columns(
         {
             "T [s]": formatted(times, ".4f"),
-            "closed form": formatted(left(beam, one, times), "#.4g"),
-            "with the backbone": formatted(left(beam, one, times, corrected=True), "#.4g"),
+            "closed form": formatted(left(blade, one, times), "#.4g"),
+            "with the backbone": formatted(left(blade, one, times, corrected=True), "#.4g"),
             "exact": formatted([exact.get(T, np.nan) for T in times], "#.4g"),
             "finite elements": formatted([elements.get(T, np.nan) for T in times], "#.4g"),
         },

@@ -74,8 +74,8 @@ def respond(
 
     load = loads.one()
     file = configured(config, "motion.omega", "theory")
-    beam, law = dampings.on(file.beam), theory_of(file, theory)
-    if beam is file.beam and not any(beam.unit.damping):  # and no zero is given
+    blade, law = dampings.on(file.blade), theory_of(file, theory)
+    if blade is file.blade and not any(blade.unit.damping):  # and no zero is given
         raise ValueError(
             "the blade is undamped, and at resonance its response has no end: give "
             "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"
@@ -93,7 +93,7 @@ def respond(
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
     frequencies = np.linspace(first, last, whole_number("points", points, least=2))
     inputs = {
-        **response_inputs(beam, load, omega),
+        **response_inputs(blade, load, omega),
         "from": first, "to": last, "points": points, "functions": functions,
         **theory_attributes(law),
     }  # fmt: skip
@@ -102,8 +102,8 @@ def respond(
         how: Any = {"theory": law, "functions": functions}
         with bar("following the curve"):
             if omega is None:
-                return analytic.forced_response(beam, frequencies, load, **how)
-            return analytic.forced_response(beam, omega, load, frequencies, **how)
+                return analytic.forced_response(blade, frequencies, load, **how)
+            return analytic.forced_response(blade, omega, load, frequencies, **how)
 
     turning = "" if omega is None else f"omega-{omega:g}-"
     loaded = f"{option_of(type(load))}-{load.size:g}"

@@ -12,7 +12,7 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..runs.attributes import beam_attributes, theory_attributes
+from ..runs.attributes import blade_attributes, theory_attributes
 from ..runs.check import energy_drift
 from .job import Flag, Results
 from .motion import Discretization, Driving, configured, motion_of
@@ -68,7 +68,7 @@ def run(
     given = omega is not None or "omega" in file.motion
     chosen = "" if given else ", the benchmark's"
     count = 0 if stations is None else whole_number("stations", stations, least=2)
-    kept = np.linspace(0.0, case.beam.length, count)
+    kept = np.linspace(0.0, case.blade.length, count)
     name = f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
     def computed() -> xr.Dataset:
@@ -98,17 +98,17 @@ def run(
 
 
 def _print_inputs(case: RunCase, element: str, chosen: str) -> None:
-    beam = case.beam
+    blade = case.blade
     print_line(
         "beam",
-        f"L = {beam.length:g} m, EI = {beam.bending_stiffness:.6g} N m², "
-        f"EA = {beam.axial_stiffness:.6g} N, m = {beam.mass:.6g} kg, "
-        f"ω_0 = {beam.omega_0:.6g} rad/s",
+        f"L = {blade.length:g} m, EI = {blade.bending_stiffness:.6g} N m², "
+        f"EA = {blade.axial_stiffness:.6g} N, m = {blade.mass:.6g} kg, "
+        f"ω_0 = {blade.omega_0:.6g} rad/s",
     )
     print_line(
         "spin-up",
         f"ω = {case.omega:g} rad/s in T = {case.ramp_time:g} s "
-        f"(Ω = {case.omega / beam.omega_0:.4f}{chosen})",
+        f"(Ω = {case.omega / blade.omega_0:.4f}{chosen})",
     )
     if case.loads:
         print_line("loads", "; ".join(map(str, case.loads)))
@@ -120,7 +120,7 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
     """Print measurements, compared with the exact beam, and checks."""
     worst = max(
         float(abs(data["direction_residual"]).max()),
-        float(data["clamp_residual"].max()) / data.attrs["beam_length"],
+        float(data["clamp_residual"].max()) / data.attrs["blade_length"],
     )
     drift, ripple = energy_drift(data)
     about = [name for name in data.data_vars if str(name).startswith("root_moment_")]
@@ -183,7 +183,7 @@ def reference(
     motion = motion_of(file, omega=omega, ramp_time=ramp_time, duration=duration)
     spin_up = motion.spin_up
     inputs = {
-        **beam_attributes(file.beam), "omega": spin_up.omega, "ramp_time": spin_up.ramp_time,
+        **blade_attributes(file.blade), "omega": spin_up.omega, "ramp_time": spin_up.ramp_time,
         "duration": motion.duration, "samples": samples, "tolerance": tolerance,
         **theory_attributes(law),
     }  # fmt: skip
@@ -192,7 +192,7 @@ def reference(
     def computed() -> SpinUpResponse:
         with bar("integrating"):
             return analytic.spin_up_response(
-                file.beam, spin_up, times, tolerance=tolerance, theory=law
+                file.blade, spin_up, times, tolerance=tolerance, theory=law
             )
 
     name = f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"

@@ -6,14 +6,14 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from analytic.blade_checks import require_planar, undamped
 
 import analytic
-from analytic.beam import require_planar, undamped
 from analytic.input_checks import not_negative
 
 from ..files.result_tables import parts
 from ..lazily import xr
-from ..runs.attributes import beam_attributes, theory_attributes
+from ..runs.attributes import blade_attributes, theory_attributes
 from .job import Results
 from .motion import configured, omega_of
 from .options import (
@@ -29,7 +29,7 @@ from .output import bar, formatted, print_columns, print_text
 
 if TYPE_CHECKING:
     from analytic.exact.free.stability_limit import StabilityLimit
-    from analytic.exact.plane.growth import GrowthOutOfPlane
+    from analytic.exact.stability.growth import GrowthOutOfPlane
 
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
@@ -70,7 +70,7 @@ def stability(
     not_negative("damping-ratio", damping_ratio)
     file = configured(config, "motion.omega", "theory")
     omega = omega_of(file, omega)
-    blade = shape.of(file.beam)
+    blade = shape.of(file.blade)
     require_planar(
         blade, "planar motion is of", "rotbeam backbone --exact, whose orbits are in space"
     )
@@ -81,7 +81,7 @@ def stability(
         )
     amplitudes = sorted(set(amplitude))
     asked = " ".join(f"{a:.17g}" for a in amplitudes)
-    inputs = {**beam_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
+    inputs = {**blade_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
     law = theory_of(file, theory)
     inputs |= {"damping_ratio": damping_ratio, **theory_attributes(law)}
     how: Any = {"damping": damping_ratio, "theory": law}

@@ -61,20 +61,20 @@ def sweep(
     from ..sweeps.grid import sweep as run_sweep
 
     file = configured(config, "motion", "numerics", "loads")
-    beam = driving.dampings.on(file.beam)
+    blade = driving.dampings.on(file.blade)
     numerics = discretization.over(file.numerics)
     omegas, ramp_times = omega, ramp_time
     if omegas is None:
         known = file.motion.get("omega")
-        omegas = chosen_speeds(file.beam, *paper.SPEEDS) if known is None else [known]
+        omegas = chosen_speeds(file.blade, *paper.SPEEDS) if known is None else [known]
     if ramp_times is None:
         known = file.motion.get("ramp_time")
-        scaled = chosen_times(file.beam, *paper.RAMP_TIMES, digits=4)
+        scaled = chosen_times(file.blade, *paper.RAMP_TIMES, digits=4)
         ramp_times = scaled if known is None else [known]
     refuse_rest(*omegas)
-    motion = grid_motion(beam, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
+    motion = grid_motion(blade, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
     count = len(omegas) * len(ramp_times)
-    one = numerics.case(beam, motion, driving.chosen(file.loads))
+    one = numerics.case(blade, motion, driving.chosen(file.loads))
 
     def computed() -> xr.Dataset:
         if config is not None:
@@ -82,7 +82,7 @@ def sweep(
             print_text(f"ω = {speeds} rad/s, T = {times} s (by default the benchmark's ω/ω_0)")
         with workers.counted("spin-ups") as how:
             return run_sweep(
-                beam, omegas=omegas, ramp_times=ramp_times, element=one.element,
+                blade, omegas=omegas, ramp_times=ramp_times, element=one.element,
                 elements=one.elements, duration=one.duration, step=one.step, frame=one.frame,
                 loads=one.loads, on_error="record", **how,
             )  # fmt: skip

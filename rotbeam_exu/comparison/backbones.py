@@ -14,7 +14,7 @@ from ..labels import AMPLITUDE, OMEGA, dataset, labeled
 from ..lazily import xr
 from ..paper import MODELS, RAMP_TIMES, SPEEDS
 from ..runs import Frame
-from ..runs.attributes import beam_attributes
+from ..runs.attributes import blade_attributes
 from ..sweeps.grid import sweep
 from .theory import RATIO, beyond_range
 
@@ -30,7 +30,7 @@ _SAFETY = 1.25
 
 
 def finite_element_points(
-    beam: Beam,
+    blade: Beam,
     mesh: Mesh,
     *,
     omegas: Sequence[float] = SPEEDS,
@@ -47,7 +47,7 @@ def finite_element_points(
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, "frame": frame, **options}
 
     def measured(elements: int, step: float) -> tuple[xr.Dataset, xr.Dataset]:
-        found = sweep(beam, elements=elements, step=step, **grid)
+        found = sweep(blade, elements=elements, step=step, **grid)
         linear = found["omega_n"]
         ratio, error = found["frequency"] / linear, found["frequency_error"] / linear
         bar = xr.Dataset({"amplitude": found["amplitude_error"], "ratio": error})
@@ -71,7 +71,7 @@ def finite_element_points(
     alone = labeled("error of the ratio: estimator alone")
     points["estimator_error"] = bar["ratio"].assign_attrs(alone)
     numerics = f"{elements} cable elements, {frame} frame, {steps}"
-    points.attrs = {**beam_attributes(beam), "mesh": mesh, "meshes": numerics}
+    points.attrs = {**blade_attributes(blade), "mesh": mesh, "meshes": numerics}
     return points
 
 
@@ -90,8 +90,8 @@ def figure_5(**options: Any) -> xr.Dataset:
         over `exact_amplitude`, (omega, node), up to the largest point of each speed. Options are
         those of `figure_14`.
     """
-    beam = Beam.reference()
-    points = finite_element_points(beam, "paper", **options)
+    blade = Beam.reference()
+    points = finite_element_points(blade, "paper", **options)
     fit = _fitted(points)
     a = xr.DataArray(np.linspace(0.0, _FITTED, 61), dims="a", attrs=labeled(AMPLITUDE))
     curve = 1.0 - fit["lambda_omega"] * a**2 - fit["quartic"] * a**4
@@ -99,7 +99,7 @@ def figure_5(**options: Any) -> xr.Dataset:
     top = points["amplitude"].max("ramp_time")
     peaks = top * xr.DataArray(np.linspace(0.0, 1.0, 25), dims="node")
     orbits = [
-        periodic_orbits(beam, omega, row[1:])
+        periodic_orbits(blade, omega, row[1:])
         for omega, row in zip(points["omega"].to_numpy().tolist(), peaks.to_numpy(), strict=True)
     ]
     exact = [np.append(1.0, found.frequency / found.omega_n) for found in orbits]
@@ -134,7 +134,7 @@ def _fitted(points: xr.Dataset) -> xr.Dataset:
 
 
 def figure_14(
-    beam: Beam | None = None,
+    blade: Beam | None = None,
     *,
     omegas: Sequence[float] = SPEEDS,
     ramp_times: Sequence[float] = RAMP_TIMES,
@@ -146,7 +146,7 @@ def figure_14(
 
     Parameters
     ----------
-    beam : Beam, optional
+    blade : Beam, optional
         By default the paper's.
     omegas, ramp_times : sequences of float
         Grid of the spin-ups [rad/s], [s].
@@ -170,17 +170,17 @@ def figure_14(
         harmonic. `as_printed` is Eq. 63 with a itself for the first harmonic, as the paper draws
         it.
     """
-    beam = beam or Beam.reference()
+    blade = blade or Beam.reference()
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, **options}
-    by_mesh = [finite_element_points(beam, mesh, **grid) for mesh in meshes]
+    by_mesh = [finite_element_points(blade, mesh, **grid) for mesh in meshes]
     points = xr.concat(by_mesh, dim="mesh")
     points["mesh"] = ("mesh", list(meshes), labeled("finite element mesh"))
-    return points.merge(backbones(beam, omegas, amplitudes)).assign_attrs(
+    return points.merge(backbones(blade, omegas, amplitudes)).assign_attrs(
         mesh="", meshes="; ".join(one.attrs["meshes"] for one in by_mesh)
     )
 
 
-def backbones(beam: Beam, omegas: Sequence[float], amplitudes: Sequence[float]) -> xr.Dataset:
+def backbones(blade: Beam, omegas: Sequence[float], amplitudes: Sequence[float]) -> xr.Dataset:
     """Backbones of the reduced models by Eq. 63, and the exact one, over (model, omega, a).
 
     Over the peak of |q|/L, and as printed: over the first harmonic of the models, which is called
@@ -193,11 +193,11 @@ def backbones(beam: Beam, omegas: Sequence[float], amplitudes: Sequence[float]) 
     with beyond_range():
         for j, omega in enumerate(omegas):
             for i, name in enumerate(MODELS):
-                model = reduced_model(beam, omega, name)
+                model = reduced_model(blade, omega, name)
                 linear[i, j] = model.omega_n
                 both = np.array([model.first_harmonic(a), a])
                 ratio[:, i, j] = model.frequency(both) / model.omega_n
-            exact = periodic_orbits(beam, omega, a)
+            exact = periodic_orbits(blade, omega, a)
             linear[-1, j] = exact.omega_n
             ratio[:, -1, j] = exact.frequency / exact.omega_n
     dims = ("model", "omega", "a")

@@ -15,15 +15,15 @@ from scipy.interpolate import CubicSpline
 
 from analytic import spin_up_response
 from analytic.arrays import FloatArray
+from analytic.exact.continuum.rotation import lives_in_space
 from analytic.exact.linear.modes import driven_modes
-from analytic.exact.space.steady import lives_in_space
 from analytic.input_checks import positive, whole_number
 
 from ..fem.case import RunCase
 from ..fem.linearization import natural_frequencies
 from ..labels import dataset
 from ..lazily import xr
-from ..runs.attributes import beam_attributes, versions
+from ..runs.attributes import blade_attributes, versions
 from ..runs.check import SimulationError
 from ..sweeps.cases import Cache, cache_of
 from ..sweeps.grid import solved
@@ -105,12 +105,12 @@ def refinement(
     if exact:
         theory = case.model.theory
         # Else flap, lag and torsion would have to be sorted.
-        if not case.model.leaves_plane or lives_in_space(case.beam):
-            true = driven_modes(case.beam, case.omega, len(modes), theory=theory).frequencies
+        if not case.model.leaves_plane or lives_in_space(case.blade):
+            true = driven_modes(case.blade, case.omega, len(modes), theory=theory).frequencies
             apart = np.array([one.limit for one in modes]) * found[-1] / true - 1.0
         motion: Any = case.spin_up  # a change of the speed
         response = spin_up_response(
-            case.beam, motion, time, tolerance=max(0.1 * tolerance, 1e-8),
+            case.blade, motion, time, tolerance=max(0.1 * tolerance, 1e-8),
             theory=theory, loads=case.loads,
         )  # fmt: skip
         off = np.abs(q - response.q).max(axis=1) / scale
@@ -156,7 +156,7 @@ def _frequencies(
     """Return the first natural frequencies of a mesh [rad/s], of the cache or computed."""
     described = case.describe()
     inputs = {
-        **beam_attributes(case.beam),
+        **blade_attributes(case.blade),
         **{name: described[name] for name in ("omega", "element", "element_options")},
         "elements": elements,
         "frequencies": count,
@@ -164,7 +164,7 @@ def _frequencies(
     known = store.get(inputs) if store else None
     if known is None:
         found = natural_frequencies(
-            case.beam, case.omega, element=case.element, elements=elements, count=count
+            case.blade, case.omega, element=case.element, elements=elements, count=count
         )
         known = dataset({"frequency": ("mode", found, "natural frequency [rad/s]")}, {})
         if store:

@@ -9,14 +9,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from analytic import (
-    AnyBlade,
-    Beam,
-    Rectangle,
-    SpinUp,
-    quiet_ramp_times,
-    residual_amplitude,
-)
+from analytic import Beam, Blade, Rectangle, SpinUp, quiet_ramp_times, residual_amplitude
 from analytic.arrays import FloatArray
 from analytic.description import describe
 from analytic.exact.free.planar_orbits import growth_rates
@@ -28,7 +21,7 @@ from ..fem.elements import Formulation, formulation
 from ..fem.simulation import simulate
 from ..labels import GROWTH, OMEGA, ORBIT, dataset
 from ..lazily import xr
-from ..runs.attributes import beam_attributes
+from ..runs.attributes import blade_attributes
 
 _W_BAR = "speed ω̄ = ω/√(EI/ρAL⁴)"
 _CURVE = 400
@@ -41,7 +34,7 @@ _STEPS = 2000
 
 
 def residual(
-    beam: AnyBlade | None = None,
+    blade: Blade | None = None,
     omega: float = 6.0,
     *,
     longest: float | None = None,
@@ -55,7 +48,7 @@ def residual(
 
     Parameters
     ----------
-    beam : Beam or Blade, optional
+    blade : Beam or Blade, optional
         By default the paper's beam.
     omega : float
         Speed after the ramp [rad/s].
@@ -76,7 +69,7 @@ def residual(
         `exact_ramp_time`, `finite_element` over `finite_element_ramp_time`, `quiet` over
         `quiet_ramp_time`: half peak to peak of the tip over L; `quiet` that of the first mode.
     """
-    blade = Beam.reference() if beam is None else beam
+    blade = Beam.reference() if blade is None else blade
     period = 2.0 * math.pi / blade.omega_0
     longest = 5.0 * period if longest is None else positive("longest", longest, "s")
     if longest <= _SHORTEST * period:
@@ -128,7 +121,7 @@ def residual(
             "quiet_ramp_time": (quiet.ramp_times, ramp_time),
         },
         {
-            **beam_attributes(blade),
+            **blade_attributes(blade),
             "omega": omega,
             "longest": longest,
             "element": model.name,
@@ -138,7 +131,7 @@ def residual(
     )
 
 
-def _of_elements(blade: AnyBlade, ramp: SpinUp, element: Formulation, elements: int) -> float:
+def _of_elements(blade: Blade, ramp: SpinUp, element: Formulation, elements: int) -> float:
     """Return half peak to peak over L in the first period after the ramp, of a run."""
     period = 2.0 * math.pi / float(driven_modes(blade, ramp.omega).frequencies[0])
     step = min(period / _STEPS, ramp.ramp_time / _STEPS)
@@ -148,7 +141,7 @@ def _of_elements(blade: AnyBlade, ramp: SpinUp, element: Formulation, elements: 
     return float(np.ptp(q)) / (2.0 * blade.length)
 
 
-def softening_map(beam: AnyBlade | None = None) -> xr.Dataset:
+def softening_map(blade: Blade | None = None) -> xr.Dataset:
     """Return λ_ω of FrM and ω_2/ω_n of a blade on hubs of many radii, at many speeds.
 
     Inextensible, by the closed form of `analytic.reduced.any_blade`. Near whole numbers of ω_2/ω_n
@@ -156,7 +149,7 @@ def softening_map(beam: AnyBlade | None = None) -> xr.Dataset:
 
     Parameters
     ----------
-    beam : Beam or Blade, optional
+    blade : Beam or Blade, optional
         By default the paper's beam; its own hub radius is replaced.
 
     Returns
@@ -165,7 +158,7 @@ def softening_map(beam: AnyBlade | None = None) -> xr.Dataset:
         `lambda_omega` and `ratio` = ω_2/ω_n over R/L from 0 to 5 and w̄ = ω/√(EI/ρAL⁴) from 0 to
         10, (hub_ratio, w_bar).
     """
-    blade = Beam.reference() if beam is None else beam
+    blade = Beam.reference() if blade is None else blade
     # Closer where the hub is small: the map turns there.
     hubs, speeds = 5.0 * np.linspace(0.0, 1.0, 33) ** 2, np.linspace(0.0, 10.0, 41)
     coefficients, ratios = np.empty((2, hubs.size, speeds.size))
@@ -186,7 +179,7 @@ def softening_map(beam: AnyBlade | None = None) -> xr.Dataset:
 
 
 def growth_out_of_plane(
-    blade: AnyBlade | None = None,
+    blade: Blade | None = None,
     *,
     omegas: Sequence[float] | None = None,
     amplitudes: Sequence[float] | None = None,
@@ -224,5 +217,5 @@ def growth_out_of_plane(
     return dataset(
         {"growth_rate": (("omega", "a"), rates, GROWTH)},
         {"omega": (speeds, OMEGA), "a": (peaks, ORBIT)},
-        {**beam_attributes(blade), "damping": damping},
+        {**blade_attributes(blade), "damping": damping},
     )

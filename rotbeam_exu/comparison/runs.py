@@ -16,29 +16,29 @@ from ..fem.simulation import simulate
 from ..labels import OMEGA, dataset, labeled
 from ..lazily import xr
 from ..paper import MODELS
-from ..runs.attributes import beam_attributes, motion_attributes
+from ..runs.attributes import blade_attributes, motion_attributes
 from ..runs.oscillation import steady_oscillation
 from .theory import beyond_range
 
 
-def reference_displacement(beam: Beam, spin_up: SpinUp) -> float:
+def reference_displacement(blade: Beam, spin_up: SpinUp) -> float:
     """Return q_0 = mωL⁴/(T(EI + mω²L³)) [m], Eq. 17.
 
     The text asks for the largest acceleration, which is 2ω/T; the print, kept here, has half of
     it. It is only a normalization.
     """
-    omega, ramp_time, mass, length = spin_up.omega, spin_up.ramp_time, beam.mass, beam.length
-    stiffness = beam.bending_stiffness + mass * omega**2 * length**3
+    omega, ramp_time, mass, length = spin_up.omega, spin_up.ramp_time, blade.mass, blade.length
+    stiffness = blade.bending_stiffness + mass * omega**2 * length**3
     return mass * omega * length**4 / (ramp_time * stiffness)
 
 
-def reference_velocity(beam: Beam, spin_up: SpinUp) -> float:
+def reference_velocity(blade: Beam, spin_up: SpinUp) -> float:
     """Return q̇_0 = q_0 √(EI/(mL³) + ω²) [m/s], Eq. 18.
 
     Corrected: the print divides, which has not the units of a velocity.
     """
-    frequency = math.hypot(beam.frequency_scale, spin_up.omega)
-    return reference_displacement(beam, spin_up) * frequency
+    frequency = math.hypot(blade.frequency_scale, spin_up.omega)
+    return reference_displacement(blade, spin_up) * frequency
 
 
 def figure_3() -> xr.Dataset:
@@ -49,14 +49,14 @@ def figure_3() -> xr.Dataset:
     Dataset
         `q` [m] over (elements, time), and `exact`, the exact beam's, over time.
     """
-    beam, spin_up, meshes = Beam.reference(), SpinUp(omega=4.0, ramp_time=15.0), [1, 2, 3]
-    runs = [simulate(beam, spin_up, elements=n, duration=30.0) for n in meshes]
+    blade, spin_up, meshes = Beam.reference(), SpinUp(omega=4.0, ramp_time=15.0), [1, 2, 3]
+    runs = [simulate(blade, spin_up, elements=n, duration=30.0) for n in meshes]
     data = xr.concat([run["q"] for run in runs], dim="elements").to_dataset(name="q")
     data["elements"] = ("elements", meshes, labeled("number of elements"))
-    exact = spin_up_response(beam, spin_up, data["time"].to_numpy(), tolerance=1e-5).q
+    exact = spin_up_response(blade, spin_up, data["time"].to_numpy(), tolerance=1e-5).q
     data["exact"] = ("time", exact, data["q"].attrs)
     motion = {name: runs[0].attrs[name] for name in ("omega", "ramp_time")}
-    data.attrs = {**beam_attributes(beam), **motion, **motion_attributes(spin_up)}
+    data.attrs = {**blade_attributes(blade), **motion, **motion_attributes(spin_up)}
     data.attrs |= _numerics(runs[0])
     del data.attrs["elements"]  # a coordinate here
     return data
@@ -73,15 +73,15 @@ def figure_4() -> xr.Dataset:
         ramp, and a shorter steady phase is filled with NaN. `smear` over case: the largest velocity
         that no harmonic of the orbit's frequency explains over the largest, what other modes do.
     """
-    beam = Beam.reference()
+    blade = Beam.reference()
 
     @functools.cache
     def orbit(omega: float, ramp_time: float) -> xr.Dataset:
         spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
-        run = simulate(beam, spin_up, elements=3)
+        run = simulate(blade, spin_up, elements=3)
         steady = run.where(run["time"] >= ramp_time, drop=True)
-        q_bar = steady["q"].data / reference_displacement(beam, spin_up)
-        q_dot_bar = steady["q_dot"].data / reference_velocity(beam, spin_up)
+        q_bar = steady["q"].data / reference_displacement(blade, spin_up)
+        q_dot_bar = steady["q_dot"].data / reference_velocity(blade, spin_up)
         smear = _unexplained(steady["q_dot"], steady_oscillation(run).frequency)
         return dataset(
             {
@@ -90,7 +90,7 @@ def figure_4() -> xr.Dataset:
                 "smear": ((), smear, "share of other modes in the velocity"),
             },
             {"sample": np.arange(q_bar.size)},
-            {**beam_attributes(beam), **_numerics(run)},
+            {**blade_attributes(blade), **_numerics(run)},
         )
 
     omegas, ramp_times = [4.0, 4.0, 4.0, 4.0, 6.0, 8.0], [1.5, 2.0, 3.0, 3.0, 3.0, 3.0]
@@ -122,13 +122,13 @@ def _unexplained(rate: xr.DataArray, frequency: float) -> float:
 
 
 def figure_15(
-    beam: Beam | None = None, *, omega: float = 6.0, ramp_time: float = 3.0, **options: Any
+    blade: Beam | None = None, *, omega: float = 6.0, ramp_time: float = 3.0, **options: Any
 ) -> xr.Dataset:
     """Orbits over one period of the finite element solution, at its amplitude (Fig. 15).
 
     Parameters
     ----------
-    beam : Beam, optional
+    blade : Beam, optional
         By default the paper's.
     omega, ramp_time : float
         The spin-up [rad/s], [s]. The print does not say which T it shows.
@@ -145,14 +145,14 @@ def figure_15(
         points from the finite element orbit, whenever that is there. Both are in units of that
         orbit's half axes. Attributes state the amplitude, and each model has it as its peak.
     """
-    beam = beam or Beam.reference()
-    run = simulate(beam, SpinUp(omega=omega, ramp_time=ramp_time), **options)
+    blade = blade or Beam.reference()
+    run = simulate(blade, SpinUp(omega=omega, ramp_time=ramp_time), **options)
     steady = steady_oscillation(run)
     period = 2.0 * np.pi / steady.frequency
     phase = np.linspace(0.0, 1.0, 201)
     q, q_dot = _from_the_peak(run, period, phase * period)
-    here = q / beam.length, q_dot / (beam.omega_0 * beam.length), period
-    theory = _of_theory(beam, omega, steady.amplitude, phase * period)
+    here = q / blade.length, q_dot / (blade.omega_0 * blade.length), period
+    theory = _of_theory(blade, omega, steady.amplitude, phase * period)
     orbits = {"finite element": here, **theory}
     names = list(orbits)
     q_bar, q_dot_bar, periods = (np.array(one) for one in zip(*orbits.values(), strict=True))
@@ -174,29 +174,29 @@ def figure_15(
             "ramp_time": ramp_time,
             "amplitude": steady.amplitude,
             **_numerics(run),
-            **beam_attributes(beam),
+            **blade_attributes(blade),
         },
     )
 
 
 def _of_theory(
-    beam: Beam, omega: float, amplitude: float, time: FloatArray
+    blade: Beam, omega: float, amplitude: float, time: FloatArray
 ) -> dict[str, tuple[FloatArray, FloatArray, float]]:
     """Return q/L, q̇/(ω0 L) and the period of models and exact beam, from their peak."""
     orbits = {}
     with beyond_range():
         for name in MODELS:
-            model = reduced_model(beam, omega, name)
+            model = reduced_model(blade, omega, name)
             tip, a0 = model.perturbation, float(model.first_harmonic(amplitude))
             frequency = float(model.frequency(a0))
             psi = frequency * time + tip.peak_phase(np.array(a0))
-            rate = frequency * tip.rate(psi, a0) / beam.omega_0
+            rate = frequency * tip.rate(psi, a0) / blade.omega_0
             orbits[name] = tip.deflection(psi, a0), rate, 2.0 * np.pi / frequency
-        exact = periodic_orbits(beam, omega, [amplitude])
+        exact = periodic_orbits(blade, omega, [amplitude])
     (frequency,), (sines,), (start,) = exact.frequency, exact.harmonics, exact.peak_time
     orders = np.arange(1, sines.size + 1)
     phases = np.outer(frequency * (start + time), orders)
-    rate = frequency * np.cos(phases) @ (orders * sines) / beam.omega_0
+    rate = frequency * np.cos(phases) @ (orders * sines) / blade.omega_0
     orbits["exact"] = np.sin(phases) @ sines, rate, 2.0 * np.pi / float(frequency)
     return orbits
 

@@ -25,7 +25,7 @@ from analytic.reduced.shapes import (
 from ..labels import AMPLITUDE, OMEGA, dataset
 from ..lazily import xr
 from ..paper import MODELS, SPEEDS
-from ..runs.attributes import beam_attributes
+from ..runs.attributes import blade_attributes
 
 _SMALL = 0.03
 """Amplitude of an orbit whose harmonics give λ_x: its square times 0.08 is the error."""
@@ -54,14 +54,14 @@ def figure_8() -> xr.Dataset:
         `ratio` over (speed_ratio, amplitude), by Eq. 63; the last speed ratio, 1000, stands for ∞.
         `exact` over (exact_speed_ratio, exact_amplitude), at Ω = 0, 1 and 10.
     """
-    beam = Beam.reference()
+    blade = Beam.reference()
     amplitude = np.linspace(0.0, 0.4, 81)
     peaks = np.linspace(0.0, 0.4, 9)
     speed_ratios, exact_ratios = [0.0, 1.0, 1000.0], [0.0, 1.0, 10.0]
     with beyond_range():
-        models = [reduced_model(beam, r * beam.omega_0, "CI") for r in speed_ratios]
+        models = [reduced_model(blade, r * blade.omega_0, "CI") for r in speed_ratios]
         ratio = [model.frequency(amplitude) / model.omega_n for model in models]
-        orbits = [periodic_orbits(beam, r * beam.omega_0, peaks[1:]) for r in exact_ratios]
+        orbits = [periodic_orbits(blade, r * blade.omega_0, peaks[1:]) for r in exact_ratios]
     exact = [np.append(1.0, found.frequency / found.omega_n) for found in orbits]
     return dataset(
         {
@@ -74,22 +74,22 @@ def figure_8() -> xr.Dataset:
             "exact_speed_ratio": (exact_ratios, _SPEED_RATIO),
             "exact_amplitude": (peaks, "peak amplitude |q|/L"),
         },
-        {"model": "CI", **beam_attributes(beam)},
+        {"model": "CI", **blade_attributes(blade)},
     )
 
 
 def figure_9() -> xr.Dataset:
     """λ_ω and λ_x of CI, and of the exact beam, against Ω (Fig. 9)."""
-    beam = Beam.reference()
-    models = {"CI": (beam, "CI"), "exact": (beam, "exact")}
-    return _coefficients(models, "speed_ratio", 10.0, _SPEED_RATIO, beam.omega_0, points=201)
+    blade = Beam.reference()
+    models = {"CI": (blade, "CI"), "exact": (blade, "exact")}
+    return _coefficients(models, "speed_ratio", 10.0, _SPEED_RATIO, blade.omega_0, points=201)
 
 
 def figure_10() -> xr.Dataset:
     """λ_ω and λ_x of the cantilever's mode, polynomials and the exact beam against ω (Fig. 10)."""
-    beam = Beam.reference()
-    polynomials = {f"degree {n}": (beam, f"P{n}") for n in (3, 4, 5)}
-    models = {"CI": (beam, "CI"), **polynomials, "exact": (beam, "exact")}
+    blade = Beam.reference()
+    polynomials = {f"degree {n}": (blade, f"P{n}") for n in (3, 4, 5)}
+    models = {"CI": (blade, "CI"), **polynomials, "exact": (blade, "exact")}
     return _coefficients(models, "omega", 30.0, OMEGA)
 
 
@@ -100,12 +100,12 @@ def figure_11() -> xr.Dataset:
     only the area, and with it EA = EI/(μL²), follows μ. The exact curves end at 0.6 of the speed
     that stretches the beam without bound.
     """
-    beam = Beam.reference()
+    blade = Beam.reference()
     beams = {}
-    for mu in (1e-2, 1e-3, 1e-4, beam.slenderness):
-        area = beam.second_moment / (mu * beam.length**2)
+    for mu in (1e-2, 1e-3, 1e-4, blade.slenderness):
+        area = blade.second_moment / (mu * blade.length**2)
         name = f"μ = {mu:.4g}"
-        beams[name] = replace(beam, area=area, density=beam.mass_per_length / area)
+        beams[name] = replace(blade, area=area, density=blade.mass_per_length / area)
     models = {name: (other, "CE") for name, other in beams.items()}
     models |= {f"exact, {name}": (other, "exact") for name, other in beams.items()}
     data = _coefficients(models, "omega", 30.0, OMEGA)
@@ -114,8 +114,8 @@ def figure_11() -> xr.Dataset:
 
 def figure_12() -> xr.Dataset:
     """Frobenius' natural frequency against the degree of its polynomials (Fig. 12)."""
-    beam, degrees = Beam.reference(), range(8, 61, 2)
-    scale = beam.frequency_scale
+    blade, degrees = Beam.reference(), range(8, 61, 2)
+    scale = blade.frequency_scale
     estimate = np.full((len(SPEEDS), len(degrees)), np.nan)
     converged = np.empty(len(SPEEDS))
     for i, omega in enumerate(SPEEDS):
@@ -132,20 +132,20 @@ def figure_12() -> xr.Dataset:
             "converged": ("omega", converged, "converged natural frequency ω_n [rad/s]"),
         },
         {"omega": (list(SPEEDS), OMEGA), "degree": (list(degrees), "polynomial degree")},
-        {"paper_degree": 36, **beam_attributes(beam)},
+        {"paper_degree": 36, **blade_attributes(blade)},
     )
 
 
 def figure_13() -> xr.Dataset:
     """First mode shape at rest and in rotation (Fig. 13); speed 0 is the cantilever's."""
-    beam = Beam.reference()
+    blade = Beam.reference()
     eta = np.linspace(0.0, 1.0, 201)
     shapes = [CantileverMode().deflection(eta)]
-    shapes += [rotating_mode(omega / beam.frequency_scale).deflection(eta) for omega in SPEEDS]
+    shapes += [rotating_mode(omega / blade.frequency_scale).deflection(eta) for omega in SPEEDS]
     return dataset(
         {"shape": (("omega", "eta"), shapes, "mode shape φ_v")},
         {"omega": ([0.0, *SPEEDS], OMEGA), "eta": (eta, "position η/L")},
-        beam_attributes(beam),
+        blade_attributes(blade),
     )
 
 
@@ -161,13 +161,13 @@ def _coefficients(
     axis = np.linspace(0.0, last, points)
     values = np.full((2, len(models), points), np.nan)
     with beyond_range():
-        for i, (beam, variant) in enumerate(models.values()):
+        for i, (blade, variant) in enumerate(models.values()):
             if variant == "exact":
-                values[:, i] = _exact_coefficients(beam, scale * axis)
+                values[:, i] = _exact_coefficients(blade, scale * axis)
                 continue
             for j, omega in enumerate((scale * axis).tolist()):
                 try:
-                    model = reduced_model(beam, omega, variant)
+                    model = reduced_model(blade, omega, variant)
                 except ValueError:
                     continue
                 values[:, i, j] = model.lambda_omega, model.lambda_x
@@ -175,21 +175,21 @@ def _coefficients(
     return dataset(
         {"lambda_omega": (dims, values[0], "λ_ω"), "lambda_x": (dims, values[1], "λ_x")},
         {"model": (list(models), "model"), name: (axis, label)},
-        beam_attributes(Beam.reference()),
+        blade_attributes(Beam.reference()),
     )
 
 
-def _exact_coefficients(beam: Beam, omegas: FloatArray) -> FloatArray:
+def _exact_coefficients(blade: Beam, omegas: FloatArray) -> FloatArray:
     """λ_ω, and λ_x = h₃/h₁³ of a small orbit's harmonics (Eq. 65), over (2, omegas).
 
     Computed at 17 speeds, closer where λ_ω turns; a cubic spline between them is 1e-4 off at most.
     NaN near the speed that stretches the beam without bound, where orbits are slow to find.
     """
     nodes = np.linspace(0.0, 1.0, 17)
-    fastest = min(float(omegas[-1]), _STRETCHED * beam.burst_speed)
+    fastest = min(float(omegas[-1]), _STRETCHED * blade.burst_speed)
     found = []
     for node in nodes:
-        orbits = periodic_orbits(beam, float(fastest * node**1.5), [_SMALL])
+        orbits = periodic_orbits(blade, float(fastest * node**1.5), [_SMALL])
         first, third = orbits.harmonics[0, [0, 2]]
         found.append((orbits.lambda_omega, third / first**3))
     curve = interpolate.CubicSpline(nodes, found, extrapolate=False)
@@ -204,7 +204,7 @@ SOURCES = (
 
 
 def model_budget(
-    beam: Beam | None = None,
+    blade: Beam | None = None,
     *,
     omegas: Sequence[float] = SPEEDS,
     amplitudes: Sequence[float] = (0.05, 0.1, 0.15, 0.2),
@@ -224,15 +224,15 @@ def model_budget(
         `error`, (ω_NL - ω_NL,exact)/ω_n,exact [-], over (model, source, omega, a), and `total`
         over (model, omega, a); a is the peak of |q|/L in all of them.
     """
-    beam = beam or Beam.reference()
+    blade = blade or Beam.reference()
     a = np.asarray(amplitudes)
     error = np.empty((len(MODELS), len(SOURCES), len(omegas), len(a)))
     total = np.empty((len(MODELS), len(omegas), len(a)))
     with beyond_range():
         for j, omega in enumerate(omegas):
-            exact = periodic_orbits(beam, omega, a)
+            exact = periodic_orbits(blade, omega, a)
             for i, name in enumerate(MODELS):
-                stages = [reduced_model(beam, omega, stage) for stage in _stages(VARIANTS[name])]
+                stages = [reduced_model(blade, omega, stage) for stage in _stages(VARIANTS[name])]
                 model = stages[0]
                 perturbed = model.frequency(model.first_harmonic(a))
                 ratios = [perturbed / model.omega_n]

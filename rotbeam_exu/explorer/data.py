@@ -16,8 +16,8 @@ import numpy as np
 from analytic import (
     VARIANTS,
     AmplitudeNotReachedError,
-    AnyBlade,
     Beam,
+    Blade,
     SpinUp,
     periodic_orbits,
     reduced_model,
@@ -55,7 +55,7 @@ _TOLERANCE = 1e-3  # of the largest |q|: a tenth of a pixel
 
 
 def explorer_data(
-    beam: AnyBlade | None = None,
+    blade: Blade | None = None,
     *,
     omegas: Sequence[float] = OMEGAS,
     amplitudes: Sequence[float] = AMPLITUDES,
@@ -73,7 +73,7 @@ def explorer_data(
 
     Parameters
     ----------
-    beam : Beam or Blade, optional
+    blade : Beam or Blade, optional
         By default the paper's. The paper's models do not describe a blade.
     omegas : sequence of float
         Rotation speeds [rad/s], ascending in equal steps.
@@ -107,7 +107,7 @@ def explorer_data(
     ValueError
         If speeds, amplitudes or ramp times do not ascend as said.
     """
-    beam = beam or Beam.reference()
+    blade = blade or Beam.reference()
     _evenly("omegas", omegas)
     _evenly("amplitudes", amplitudes)
     exact_ramp_times = _ramp_times(exact_ramp_times, duration)
@@ -124,14 +124,14 @@ def explorer_data(
             one_more()
 
     with worker_pool(None, jobs, total) as pool:
-        exact = [pool.submit(exact_orbits, beam, omega, tuple(amplitudes)) for omega in omegas]
-        spun = [pool.submit(exact_spin_up, beam, *ramp, duration) for ramp in ramps]
+        exact = [pool.submit(exact_orbits, blade, omega, tuple(amplitudes)) for omega in omegas]
+        spun = [pool.submit(exact_spin_up, blade, *ramp, duration) for ramp in ramps]
         futures: list[Future[Any]] = [*exact, *spun]
         for future in futures:
             future.add_done_callback(finished)
         try:
             points = sweep(
-                beam, omegas=finite_element_omegas, ramp_times=ramp_times, elements=elements,
+                blade, omegas=finite_element_omegas, ramp_times=ramp_times, elements=elements,
                 duration=duration, step=step, executor=pool, cache=cache, progress=one_more,
             )  # fmt: skip
             orbits = xr.concat([future.result() for future in exact], dim="omega")
@@ -141,19 +141,19 @@ def explorer_data(
                 future.cancel()
     shown = ["amplitude", "frequency", "omega_n"]
     points = points[shown].rename({name: f"fe_{name}" for name in ("omega", *shown)})
-    spin_ups = _spin_ups(beam, finite_element_omegas, exact_ramp_times, duration, left)
-    parts = [_models(beam, omegas, amplitudes), orbits, points, spin_ups]
+    spin_ups = _spin_ups(blade, finite_element_omegas, exact_ramp_times, duration, left)
+    parts = [_models(blade, omegas, amplitudes), orbits, points, spin_ups]
     data = xr.merge(parts, combine_attrs="drop", join="exact")
     data.attrs = {
-        "frequency_scale": beam.frequency_scale,
-        "length": beam.length,
+        "frequency_scale": blade.frequency_scale,
+        "length": blade.length,
         "elements": elements,
-        "blade": "" if beam == Beam.reference() else str(beam),
+        "blade": "" if blade == Beam.reference() else str(blade),
     }
     return data
 
 
-def _models(beam: AnyBlade, omegas: Sequence[float], amplitudes: Sequence[float]) -> xr.Dataset:
+def _models(blade: Blade, omegas: Sequence[float], amplitudes: Sequence[float]) -> xr.Dataset:
     """Coefficients of Eqs. 63 and 65 over (model, omega), of every variant."""
     values = np.full((5, len(VARIANTS), len(omegas)), np.nan)
     first = np.full((len(VARIANTS), len(omegas), len(amplitudes)), np.nan)
@@ -161,7 +161,7 @@ def _models(beam: AnyBlade, omegas: Sequence[float], amplitudes: Sequence[float]
         for i, name in enumerate(VARIANTS):
             for j, omega in enumerate(omegas):
                 try:
-                    model = reduced_model(beam, omega, name)
+                    model = reduced_model(blade, omega, name)
                 except ValueError:
                     continue  # no oscillation at that speed, or not for such a blade
                 tip = model.perturbation
@@ -181,7 +181,7 @@ def _models(beam: AnyBlade, omegas: Sequence[float], amplitudes: Sequence[float]
     )
 
 
-def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
+def exact_orbits(blade: Blade, omega: float, amplitudes: tuple[float, ...]) -> xr.Dataset:
     """Return the exact orbits shown at one speed; a pure function, for any executor.
 
     NaN for orbits that are not found.
@@ -190,7 +190,7 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", RotbeamWarning)
         try:
-            backbone = periodic_orbits(beam, omega, wanted)
+            backbone = periodic_orbits(blade, omega, wanted)
         except AmplitudeNotReachedError as error:
             if error.orbits is None:
                 raise
@@ -206,10 +206,10 @@ def exact_orbits(beam: AnyBlade, omega: float, amplitudes: tuple[float, ...]) ->
     tip = np.pad(tip, ((0, 0), (0, _TIP_HARMONICS - tip.shape[1])))
     # The midpoints of half a period, which symmetry makes enough.
     phase = np.pi * (np.arange(32) + 0.5) / 32
-    points = np.linspace(0.0, beam.length, _AXIS_POINTS)
+    points = np.linspace(0.0, blade.length, _AXIS_POINTS)
     places = [backbone.axis(i, points, phase) for i in range(backbone.amplitude.size)]
     axes = [_axis_harmonics(place[..., 0], place[..., 1]) for place in places]
-    axis_x, axis_y = (np.array(parts) / beam.length for parts in zip(*axes, strict=True))
+    axis_x, axis_y = (np.array(parts) / blade.length for parts in zip(*axes, strict=True))
     along = ("a", "k", "point")
     orbits = dataset(
         {
@@ -236,7 +236,7 @@ def _axis_harmonics(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArra
 
 
 def exact_spin_up(
-    beam: AnyBlade, omega: float, ramp_time: float, duration: float
+    blade: Blade, omega: float, ramp_time: float, duration: float
 ) -> tuple[FloatArray, float]:
     """Return q/L of an exact spin-up and the amplitude it leaves; a pure function.
 
@@ -244,19 +244,19 @@ def exact_spin_up(
     to be computed in seconds.
     """
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
-    period = 2.0 * math.pi / float(driven_modes(beam, omega).frequencies[0])
+    period = 2.0 * math.pi / float(driven_modes(blade, omega).frequencies[0])
     times = np.linspace(0.0, duration, _SAMPLES)
     after = ramp_time + np.linspace(0.0, period, _A_PERIOD)
     both = np.union1d(times, after)
     q = np.full(both.size, np.nan)
-    if residual_amplitude(beam, spin_up) < _LARGEST:
+    if residual_amplitude(blade, spin_up) < _LARGEST:
         with contextlib.suppress(RuntimeError):
-            q = spin_up_response(beam, spin_up, both, tolerance=_TOLERANCE).q / beam.length
+            q = spin_up_response(blade, spin_up, both, tolerance=_TOLERANCE).q / blade.length
     return q[np.searchsorted(both, times)], 0.5 * float(np.ptp(q[np.searchsorted(both, after)]))
 
 
 def _spin_ups(
-    beam: AnyBlade,
+    blade: Blade,
     omegas: Sequence[float],
     ramp_times: Sequence[float],
     duration: float,
@@ -267,7 +267,7 @@ def _spin_ups(
     q, left = (np.array(values) for values in zip(*spun, strict=True))
     curve = np.linspace(min(ramp_times), max(ramp_times), _CURVE)
     ramps = [SpinUp(omega=omega, ramp_time=max(ramp_times)) for omega in omegas]
-    closed = [residual_amplitude(beam, ramp, curve, corrected=True) for ramp in ramps]
+    closed = [residual_amplitude(blade, ramp, curve, corrected=True) for ramp in ramps]
     return dataset(
         {
             "spin_up": ((*grid, "time"), q.reshape(*shape, -1), "q/L"),

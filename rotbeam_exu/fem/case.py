@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
-from analytic import AnyBlade, SteadyRotation
+from analytic import Blade, SteadyRotation
 from analytic.description import describe, from_description
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
@@ -16,8 +16,8 @@ from analytic.motion import Rotation, SpeedChange
 
 from ..runs import Frame
 from ..runs.attributes import (
-    beam_attributes,
     beam_of,
+    blade_attributes,
     loads_attributes,
     loads_of,
     motion_attributes,
@@ -34,7 +34,7 @@ class RunCase:
     Fields are as in `simulate`; a name becomes the formulation, NumPy's numbers become Python's.
     """
 
-    beam: AnyBlade
+    blade: Blade
     spin_up: SpeedChange | SteadyRotation
     element: str | Formulation = "cable"
     elements: int = 16
@@ -57,7 +57,7 @@ class RunCase:
             ("loads", loads_in_time(self.loads)),
         ):
             object.__setattr__(self, name, value)
-        require_modeled(self.beam, self.model, self.frame)
+        require_modeled(self.blade, self.model, self.frame)
         if not self.model.leaves_plane and any(load.leaves_plane for load in self.loads):
             raise ValueError(
                 f"element {self.model.name!r} stays in the plane of rotation, out of which a load "
@@ -75,7 +75,7 @@ class RunCase:
     def described(cls, attrs: Mapping[Any, Any]) -> RunCase:
         """Return the case that the attributes of a run describe: `describe` inverted."""
         return cls(
-            beam=beam_of(attrs),
+            blade=beam_of(attrs),
             spin_up=motion_of(attrs),  # type: ignore[arg-type]  # others are refused
             element=from_description(json.loads(attrs["element_options"]), Formulation),
             elements=int(attrs["elements"]),
@@ -108,20 +108,20 @@ class RunCase:
     @property
     def exchanges_energy(self) -> bool:
         """Whether loads or damping bring energy or take it."""
-        return bool(self.loads) or any(self.beam.unit.damping)
+        return bool(self.loads) or any(self.blade.unit.damping)
 
     @cached_property
     def steps_and_sampling(self) -> tuple[int, int]:
         """Number of steps, and of how many one is kept."""
         return checked_steps(
-            self.beam, self.spin_up.fastest, self.ramp_time, self.duration, self.step,
+            self.blade, self.spin_up.fastest, self.ramp_time, self.duration, self.step,
             [self.omega if one.frequency is None else one.frequency for one in self.loads],
         )  # fmt: skip
 
     def describe(self) -> dict[str, Any]:
         """Return every input as plain values: the attributes of a run, and the key of a result."""
         return {
-            **beam_attributes(self.beam),
+            **blade_attributes(self.blade),
             "omega": self.omega,
             "ramp_time": self.ramp_time,
             **motion_attributes(self.spin_up),

@@ -13,11 +13,11 @@ import math
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray, few_at_once
-from analytic.exact.beam.kinematics import set_at
-from analytic.exact.beam.state import SectionLoads
-from analytic.exact.space.unit import space_unit
+from analytic.exact.continuum.planar_kinematics import set_at
+from analytic.exact.continuum.state import SectionLoads
+from analytic.exact.continuum.unit import space_unit
 from analytic.lazily import interpolate, sparse
 from analytic.quadrature import gauss_points
 
@@ -43,11 +43,11 @@ def columns(
     stations: FloatArray,
 ) -> xr.Dataset:
     """Return the samples of a run, whose trajectory is in `units`; `stations` are over L."""
-    model, beam, space = case.model, built.beam, case.model.leaves_plane
+    model, blade, space = case.model, built.blade, case.model.leaves_plane
     # Counted, not added up: the times of the steps asked for.
     time = case.step * np.rint(trajectory.time * units.time / case.step)
     coordinates, absolute = trajectory.coordinates, trajectory.velocities
-    elastic, setting = trajectory.elastic_energy, model.setting(beam)
+    elastic, setting = trajectory.elastic_energy, model.setting(blade)
     angle, rate = case.rotation.angle(time), units.time * case.rotation.rate(time)
     if case.frame == "inertial":
         coordinates = model.turned(coordinates, -angle) - angle[:, None, None] * model.angles
@@ -55,17 +55,17 @@ def columns(
     else:
         absolute = absolute + setting * rate[:, None, None] * model.spun(coordinates)
     kinetic, momentum = model.energy_and_momentum(
-        beam, built.mass, built.chain.turning, coordinates, absolute, rate
+        blade, built.mass, built.chain.turning, coordinates, absolute, rate
     )
     relative = absolute - setting * rate[:, None, None] * model.spun(coordinates)
     # The lines of the nodes, by the axes of the clamp.
-    frame = model.line_frame(beam)
+    frame = model.line_frame(blade)
     axis, moving = (e[..., : model.dimensions] @ frame for e in (coordinates, relative))
     # Out of the plane of rotation the deflection has a share that is not seen there.
     seen = coordinates[:, -1, :2] @ [1.0, 1j * setting] * np.exp(1j * angle)
     reference = trajectory.reference[0]
     off = coordinates[:, 0] - reference
-    strain = np.abs(model.axial_strain(beam, coordinates)).max(axis=1)
+    strain = np.abs(model.axial_strain(blade, coordinates)).max(axis=1)
     values = {
         "q": (axis[:, -1, 1], "tip displacement q [m]"),
         "q_dot": (moving[:, -1, 1], "tip velocity dq/dt [m/s]"),
@@ -89,7 +89,7 @@ def columns(
         ),
         "axial_strain": (strain, "largest axial strain along the beam"),
     }  # fmt: skip
-    values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], _to_clamp(model, beam))
+    values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], _to_clamp(model, blade))
     t, rate_dot = time / units.time, units.time**2 * case.rotation.acceleration(time)
     if setting != 1.0:
         across = _torque_across(built, setting, t, angle, coordinates, relative, rate, rate_dot)
@@ -200,18 +200,18 @@ def section_loads(
     `states` (samples, nodes, n) are coordinates, rates relative to the clamp and absolute ones, by
     the axes of the clamp; and accelerations of the case's frame by its axes.
     """
-    masses, model, beam = _Masses(case, units, built, stations), case.model, case.beam
+    masses, model, blade = _Masses(case, units, built, stations), case.model, case.blade
     parts = [
         masses.loads(time[one], *(state[one] for state in states)) for one in few_at_once(time.size)
     ]
     place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
-    to_clamp = _to_clamp(model, beam)
-    place[..., 0] -= built.beam.hub_radius
+    to_clamp = _to_clamp(model, blade)
+    place[..., 0] -= built.blade.hub_radius
     if not model.leaves_plane:  # not computed: what holds the blade in its plane
         force[..., 2] = moment[..., :2] = 0.0
     return SectionLoads(
-        blade=beam,
-        stations=beam.length * stations,
+        blade=blade,
+        stations=blade.length * stations,
         place=units.length * place @ to_clamp.T,
         section=to_clamp @ section,
         force=units.energy / units.length * force,
@@ -219,12 +219,12 @@ def section_loads(
     )
 
 
-def _to_clamp(model: Formulation, beam: AnyBlade) -> FloatArray:
+def _to_clamp(model: Formulation, blade: Blade) -> FloatArray:
     """Return the rotation (3, 3) from the axes of the model to those of the clamp.
 
     A blade in its plane is set as a whole, one in space along its sections.
     """
-    return model.line_frame(beam).T if model.twists else set_at(beam.setting_angle)
+    return model.line_frame(blade).T if model.twists else set_at(blade.setting_angle)
 
 
 class _Masses:
@@ -233,17 +233,17 @@ class _Masses:
     def __init__(
         self, case: RunCase, units: Units, built: RotatingBeam, stations: FloatArray
     ) -> None:
-        beam, model, count = built.beam, case.model, len(built.nodes)
-        self._case, self._units, self._model, self._beam = case, units, model, beam
+        blade, model, count = built.blade, case.model, len(built.nodes)
+        self._case, self._units, self._model, self._beam = case, units, model, blade
         ends = np.union1d(np.linspace(0.0, 1.0, count), stations)
         inner, weights = gauss_points(_POINTS)
         dx = np.outer(np.diff(ends), weights).ravel()
         x = (ends[:-1, None] + np.outer(np.diff(ends), inner)).ravel()
-        at, none = Mesh(blade=beam, elements=1).along(x), np.zeros(1)
+        at, none = Mesh(blade=blade, elements=1).along(x), np.zeros(1)
         # Behind the points of the blade come those of its point masses, and the tip.
-        bodies = [(one.position, one.mass, one.inertia) for one in beam.point_masses]
+        bodies = [(one.position, one.mass, one.inertia) for one in blade.point_masses]
         places, masses, inertias = np.array(bodies).reshape(-1, 3).T
-        self._x = np.concatenate((x, places / beam.length, none + 1.0))
+        self._x = np.concatenate((x, places / blade.length, none + 1.0))
         self._weights = {
             "mass": np.concatenate((at.mass_per_length * dx, masses, none)),
             "length": np.concatenate((dx, 0.0 * masses, none)),
@@ -253,14 +253,14 @@ class _Masses:
         self._second = np.zeros((self._x.size, 3, 3))
         self._second[x.size : -1, 1, 1] = inertias
         if model.twists:
-            _, own = space_unit(beam).inertia_about(x, beam.slenderness)
+            _, own = space_unit(blade).inertia_about(x, blade.slenderness)
             second = 0.5 * np.trace(own) * np.eye(3)[..., None] - own
-            unit = beam.mass_per_length * beam.length**2
+            unit = blade.mass_per_length * blade.length**2
             self._second[: x.size] = np.moveaxis(unit * second * dx, -1, 0)
         elif model.theory.rotary_inertia:
             self._second[: x.size, 1, 1] = at.rotary_inertia * dx
         self._outboard = ((self._x > stations[:, None]) | (self._x == 1.0)).astype(float)
-        spread = model.spread(count, case.elements, beam.length, np.append(self._x, stations))
+        spread = model.spread(count, case.elements, blade.length, np.append(self._x, stations))
         self._spread = sparse.csr_array(spread.reshape(-1, spread.shape[2] * spread.shape[3]))
 
     def loads(self, time: FloatArray, *states: FloatArray) -> tuple[FloatArray, ...]:

@@ -9,10 +9,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+from analytic.blade_checks import require_blade, require_steady_state, undamped, warn_if_rpm
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.beam import require_blade, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 from analytic.loads import Load
 from analytic.methods.system import inverse_eigenvalues
@@ -65,7 +65,7 @@ class Linearization:
     @classmethod
     def of(
         cls,
-        beam: AnyBlade,
+        blade: Blade,
         omega: float,
         element: str | Formulation = "cable",
         elements: int = 16,
@@ -76,11 +76,11 @@ class Linearization:
         `weight` are loads that stand still in the turning frame.
         """
         omega = rotation_speed(omega)
-        warn_if_rpm(beam, omega)
-        require_steady_state(beam, omega)
-        require_stretch(beam)
-        model, units = formulation(element), Units.of(beam)
-        unit_beam, w_bar = units.beam(undamped(beam)), omega * units.time
+        warn_if_rpm(blade, omega)
+        require_steady_state(blade, omega)
+        require_stretch(blade)
+        model, units = formulation(element), Units.of(blade)
+        unit_beam, w_bar = units.blade(undamped(blade)), omega * units.time
         # A blade that bends in rotation has several equilibria: that from rest is followed, by a
         # speed that the static solution raises from zero at t = 0 to w̄ at 1.
         rotation: Any = SimpleNamespace(
@@ -105,14 +105,14 @@ class Linearization:
             except Exception as error:
                 raise SimulationError(
                     f"no steady state found at omega = {omega:g} rad/s: check the axial stiffness "
-                    f"EA = {beam.axial_stiffness:g} N and the speed"
+                    f"EA = {blade.axial_stiffness:g} N and the speed"
                 ) from error
             unloaded = built.chain.reference(mbs)[-1]
             moved = mbs.GetNodeOutput(built.nodes[-1], exudyn.OutputVariableType.Coordinates)
             settings.staticSolver.loadStepStart = 1.0  # when the speed is reached
             linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
         mass, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
-        axes = model.line_frame(beam)
+        axes = model.line_frame(blade)
         turned = np.nan
         if model.twists:
             before, after = model.sections(np.stack((unloaded, unloaded + moved)))
@@ -164,7 +164,7 @@ class Linearization:
 
 
 def natural_frequencies(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     *,
     element: str | Formulation = "cable",
@@ -180,7 +180,7 @@ def natural_frequencies(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omega : float
         Steady angular velocity ω [rad/s].
     element, elements
@@ -209,6 +209,6 @@ def natural_frequencies(
     cable [ 3.7311 23.0152 56.6964]
     exact [ 3.7282 23.6436 62.3349]
     """
-    require_blade(beam)
-    warn_if_coarse(beam, rotation_speed(omega), whole_number("elements", elements))
-    return Linearization.of(beam, omega, element, elements).frequencies(count)
+    require_blade(blade)
+    warn_if_coarse(blade, rotation_speed(omega), whole_number("elements", elements))
+    return Linearization.of(blade, omega, element, elements).frequencies(count)

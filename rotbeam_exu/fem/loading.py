@@ -19,7 +19,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.loads import Load
@@ -41,25 +41,25 @@ class Loading:
     def __init__(
         self,
         model: Formulation,
-        beam: AnyBlade,
+        blade: Blade,
         elements: int,
         mass: sparse.csr_array,
         loads: Sequence[Load],
     ) -> None:
         forces = [(load, load.acts_on) for load in loads if load.acts_on is not None]
-        external = beam.damping.external
+        external = blade.damping.external
         size, per_node = mass.shape[0], model.angles.size
         of_length = sparse.csr_array(mass.shape)
         if external or any(onto == "length" for _, onto in forces):
-            section = replace(beam.section, mass_per_length=1.0, rotary_inertia=0.0)
-            light = replace(beam.blade, section=section, point_masses=())
+            section = replace(blade.section, mass_per_length=1.0, rotary_inertia=0.0)
+            light = replace(blade, section=section, point_masses=())
             of_length = mass_matrix(model, light, elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
         acted_on = {"mass": mass, "length": of_length, "tip": at_tip}
         # Unit translations along and across the blade, and up.
         shifts = np.tile(np.eye(model.dimensions, per_node), size // per_node)
         self._pushes = [(load, np.asarray(shifts @ acted_on[onto])) for load, onto in forces]
-        self._drag, self._model, self._setting = external * of_length, model, model.setting(beam)
+        self._drag, self._model, self._setting = external * of_length, model, model.setting(blade)
 
     def __bool__(self) -> bool:
         return bool(self._pushes) or self._drag.nnz > 0

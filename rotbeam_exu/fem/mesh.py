@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic import AnyBlade, PointMass
+from analytic import Blade, PointMass
 from analytic.arrays import FloatArray, evaluated
 from analytic.quadrature import gauss_points
 
@@ -37,7 +37,7 @@ class Mesh:
     element of our own takes the sections at its Gauss points.
     """
 
-    blade: AnyBlade
+    blade: Blade
     elements: int
     nodes_of_element: int = 2
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.input_checks import finite_number, whole_number
 from analytic.lazily import sparse
 from analytic.loads import Load, loads_in_time, rippled
@@ -53,7 +53,7 @@ class RotatingBeam:
     """
 
     model: Formulation
-    beam: AnyBlade
+    blade: Blade
     elements: int
     frame: Frame
     chain: Chain
@@ -99,10 +99,10 @@ class RotatingBeam:
         every : int
             Of how many steps sensors keep one.
         """
-        units = Units.of(self.beam, step)
+        units = Units.of(self.blade, step)
         # A tolerance below the round-off is never met, and one relative to the first residual
         # would loosen with the axial stiffness.
-        tolerance = max(_TOLERANCE, round_off(units.beam(self.beam), self.elements))
+        tolerance = max(_TOLERANCE, round_off(units.blade(self.blade), self.elements))
         inertial, model = self.frame == "inertial", self.model
         settings = exudyn.SimulationSettings()
         integration = settings.timeIntegration
@@ -124,7 +124,7 @@ class RotatingBeam:
 
 def add_rotating_beam(
     mbs: exudyn.MainSystem,
-    beam: AnyBlade,
+    blade: Blade,
     clamp: Rotation | exudyn.MarkerIndex,
     *,
     azimuth: float = 0.0,
@@ -143,7 +143,7 @@ def add_rotating_beam(
     Parameters
     ----------
     mbs : exudyn.MainSystem
-    beam : Beam or Blade
+    blade : Beam or Blade
         In the units of the system, SI as a rule.
     clamp : SpinUp, FourierRamp, SpeedTable, SteadyRotation or MarkerIndex
         Angle over time; or a MarkerBodyRigid on a body of yours, such as a hub that turns freely or
@@ -175,12 +175,12 @@ def add_rotating_beam(
     True
     """
     model, elements = formulation(element), whole_number("elements", elements)
-    require_modeled(beam, model, frame)
+    require_modeled(blade, model, frame)
     loads, azimuth = loads_in_time(loads), finite_number("azimuth", azimuth)
     on_body = isinstance(clamp, exudyn.MarkerIndex)
     if on_body:
         require_joint(model)
-        if loads or beam.damping.external or frame != "inertial":
+        if loads or blade.damping.external or frame != "inertial":
             raise ValueError(
                 "at a marker the angle of the clamp is not known beforehand: take "
                 "frame='inertial', a blade without external damping, and for loads Exudyn's own "
@@ -188,9 +188,9 @@ def add_rotating_beam(
             )
     elif not hasattr(clamp, "angle"):
         raise TypeError(f"clamp must be a rotation, or a marker that AddMarker gave, got {clamp!r}")
-    chain = model.lay(mbs, beam, elements)
-    mass = mass_matrix(model, beam, elements)
-    loading = Loading(model, beam, elements, mass, loads)
+    chain = model.lay(mbs, blade, elements)
+    mass = mass_matrix(model, blade, elements)
+    loading = Loading(model, blade, elements, mass, loads)
     if on_body:
         constraints, torque = drive.clamp_to_body(mbs, chain, model, clamp, azimuth)
     else:
@@ -198,11 +198,11 @@ def add_rotating_beam(
         if azimuth:
             rotation = restated(rotation, azimuth=azimuth)
         if frame == "inertial":
-            constraints = drive.prescribe_rotation(mbs, chain, model, rotation, beam.hub_radius)
+            constraints = drive.prescribe_rotation(mbs, chain, model, rotation, blade.hub_radius)
         else:
             constraints = [drive.hold_root(mbs, chain, model)]
-            drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(beam))
-            model.add_spin_forces(mbs, chain, beam, rotation)
+            drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(blade))
+            model.add_spin_forces(mbs, chain, blade, rotation)
         seen = rotation.angle if frame == "inertial" else lambda t: 0.0
         torque = drive.torque_of(mbs, chain, model, constraints, seen)
         if loading:
@@ -217,6 +217,6 @@ def add_rotating_beam(
         )
     )
     return RotatingBeam(
-        model=model, beam=beam, elements=elements, frame=frame, chain=chain, tip_marker=tip,
+        model=model, blade=blade, elements=elements, frame=frame, chain=chain, tip_marker=tip,
         tip_sensor=sensor, torque=torque, clamp=tuple(constraints), mass=mass, loading=loading,
     )  # fmt: skip

@@ -9,14 +9,14 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from analytic.blade_checks import require_planar, warn_if_rpm
 from numpy.typing import ArrayLike
 
-from analytic import AnyBlade, SteadyRotation, linear_modes
+from analytic import Blade, SteadyRotation, linear_modes
 from analytic.arrays import FloatArray
-from analytic.beam import require_planar, warn_if_rpm
-from analytic.exact.beam.state import BeamState, straight_state
-from analytic.exact.beam.steady import stretched_state
-from analytic.exact.space.steady import require_bent
+from analytic.exact.continuum.planar_rotation import stretched_state
+from analytic.exact.continuum.rotation import require_bent
+from analytic.exact.continuum.state import BeamState, straight_state
 from analytic.input_checks import points_of_beam
 from analytic.lazily import integrate, interpolate
 from analytic.loads import Load
@@ -40,7 +40,7 @@ _ALONG, _BETWEEN = 401, 8
 
 
 def simulate(
-    beam: AnyBlade,
+    blade: Blade,
     spin_up: SpeedChange | SteadyRotation,
     *,
     element: str | Formulation = "cable",
@@ -61,7 +61,7 @@ def simulate(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
         The beam; in space with a section out of the plane, as ``beam.with_shape(Rectangle())``.
     spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, another change of the speed, or a constant
@@ -132,7 +132,7 @@ def simulate(
     -2.200 m, passed
     """
     case = RunCase(
-        beam=beam, spin_up=spin_up, element=element, elements=elements, duration=duration,
+        blade=blade, spin_up=spin_up, element=element, elements=elements, duration=duration,
         step=step, frame=frame, loads=loads,
     )  # fmt: skip
     return run_case(case, initial_state=initial_state, stations=stations, progress=progress)
@@ -146,12 +146,12 @@ def run_case(
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return what `simulate` does, of a case."""
-    warn_if_rpm(case.beam, case.spin_up.fastest)
-    units, model = Units.of(case.beam, case.step), case.model
-    kept = points_of_beam("stations", stations, case.beam.length)
+    warn_if_rpm(case.blade, case.spin_up.fastest)
+    units, model = Units.of(case.blade, case.step), case.model
+    kept = points_of_beam("stations", stations, case.blade.length)
     with exudyn_system() as mbs:
         built = add_rotating_beam(
-            mbs, units.beam(case.beam), units.rotation(case.spin_up), element=model,
+            mbs, units.blade(case.blade), units.rotation(case.spin_up), element=model,
             elements=case.elements, frame=case.frame, loads=units.loads(case.loads),
         )  # fmt: skip
         sensors = Sensors(mbs, built.chain, built.clamp, kept.size > 0)
@@ -174,7 +174,7 @@ def run_case(
     run = columns(case, units, built, trajectory, kept)
     run.attrs = {
         **case.describe(),
-        "divergence_speed": model.divergence_speed(case.beam, case.elements),
+        "divergence_speed": model.divergence_speed(case.blade, case.elements),
         "settings": json.dumps(described(settings, case.frame, every)),
         "versions": json.dumps(versions()),
         "wall_time": wall_time,
@@ -191,12 +191,12 @@ def _start(
     """Return coordinates and velocities in the frame of the clamp, unless it starts straight."""
     turning = getattr(case.spin_up, "start", 0.0)
     if initial_state is None and turning:
-        initial_state = partial(stretched_state, case.beam, turning)
+        initial_state = partial(stretched_state, case.blade, turning)
     if initial_state is None:
         return None
-    require_planar(case.beam)
+    require_planar(case.blade)
     x = np.linspace(0.0, 1.0, len(reference))
-    state = initial_state(case.beam.length * x)
+    state = initial_state(case.blade.length * x)
     if not case.model.leaves_plane:
         for name in ("w", "w_slope", "w_dot", "w_slope_dot"):
             if largest := float(np.max(np.abs(getattr(state, name)))):
@@ -205,7 +205,7 @@ def _start(
                     f"initial_state moves the blade by {name} up to {largest:.3g}: take "
                     "element='space_exact'"
                 )
-    return case.model.coordinates(case.beam.unit.hub + x, units.state(state))
+    return case.model.coordinates(case.blade.unit.hub + x, units.state(state))
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
@@ -231,7 +231,7 @@ def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
 
 
 def kicked(
-    blade: AnyBlade,
+    blade: Blade,
     kick: float = 1e-6,
     planar: Callable[[FloatArray], BeamState] | None = None,
     *,

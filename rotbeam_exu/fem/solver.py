@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 
@@ -34,32 +34,32 @@ def exudyn_system() -> Iterator[exudyn.MainSystem]:
         container.Reset()
 
 
-def static_settings(beam: AnyBlade, elements: int) -> exudyn.SimulationSettings:
+def static_settings(blade: Blade, elements: int) -> exudyn.SimulationSettings:
     """Return the settings of a static solution, for a beam of unit length."""
     settings = exudyn.SimulationSettings()
     settings.solution.file.write = False
     settings.staticSolver.verboseMode = 0
-    settings.staticSolver.newton.absoluteTolerance = round_off(beam, elements)
+    settings.staticSolver.newton.absoluteTolerance = round_off(blade, elements)
     return settings
 
 
-def round_off(beam: AnyBlade, elements: int) -> float:
+def round_off(blade: Blade, elements: int) -> float:
     """Return the residual force that Newton cannot go below, for a beam of unit length.
 
     The axial force EA (|r'| - 1) has its round-off from r' = r/l, the shear force from r''/l².
     """
-    return 1e-14 * (elements * beam.axial_stiffness + 10.0 * elements**3 * beam.bending_stiffness)
+    return 1e-14 * (elements * blade.axial_stiffness + 10.0 * elements**3 * blade.bending_stiffness)
 
 
-def mass_matrix(model: Formulation, beam: AnyBlade, elements: int) -> sparse.csr_array:
+def mass_matrix(model: Formulation, blade: Blade, elements: int) -> sparse.csr_array:
     """Return the mass matrix of the chain as Exudyn assembles it, root first [SI].
 
     Of nodes with Euler parameters, whose mass is not constant, that of the places alone.
     """
     with exudyn_system() as mbs:
-        model.lay(mbs, beam, elements)
+        model.lay(mbs, blade, elements)
         mbs.Assemble()
-        system: Any = mbs.ComputeLinearizedSystem(static_settings(beam, elements))
+        system: Any = mbs.ComputeLinearizedSystem(static_settings(blade, elements))
     mass = np.array(system[0])
     if not model.constant_mass:
         place = np.arange(model.angles.size) < model.dimensions

@@ -13,8 +13,8 @@ from dataclasses import dataclass, fields, replace
 from types import SimpleNamespace
 from typing import cast
 
-from analytic import AnyBlade
-from analytic.exact.beam.state import BeamState
+from analytic import Blade
+from analytic.exact.continuum.state import BeamState
 from analytic.loads import Load
 from analytic.motion import Rotation
 
@@ -28,12 +28,12 @@ class Units:
     time: float
 
     @classmethod
-    def of(cls, beam: AnyBlade, step: float | None = None) -> Units:
+    def of(cls, blade: Blade, step: float | None = None) -> Units:
         """Return L, m and √(mL³/EI), or the nearest 2^k times a `step` [s]."""
-        time = 1.0 / beam.frequency_scale
+        time = 1.0 / blade.frequency_scale
         if step is not None:
             time = math.ldexp(step, round(math.log2(time / step)))
-        return cls(length=beam.length, mass=beam.mass, time=time)
+        return cls(length=blade.length, mass=blade.mass, time=time)
 
     @property
     def velocity(self) -> float:
@@ -45,9 +45,9 @@ class Units:
         """Unit of energy [J]."""
         return self.mass * self.velocity**2
 
-    def beam(self, beam: AnyBlade) -> AnyBlade:
+    def blade(self, blade: Blade) -> Blade:
         """Return the beam or blade in these units."""
-        return beam.in_units(self.length, self.mass, self.time)
+        return blade.in_units(self.length, self.mass, self.time)
 
     def loads(self, loads: Iterable[Load]) -> tuple[Load, ...]:
         """Return the loads of a motion in time in these units."""

@@ -254,12 +254,12 @@ def _beam(ax: Axes, of: _Shown, color: str, path: str, **view: Any) -> _Moving:
     (strip,) = ax.fill([], [], color=BLUE, alpha=0.4, lw=0.0)
     (trace,) = ax.plot([], [], color=path, lw=1.0)
     width = 1.2 if of.leaves_plane else 2.5
-    (beam,) = ax.plot([], [], color=color, lw=width, solid_capstyle="round")
+    (blade,) = ax.plot([], [], color=color, lw=width, solid_capstyle="round")
     (tip,) = ax.plot([], [], "o", color=path, ms=4)
 
     def show(n: int) -> None:
         past = tips[max(0, _FINER * n - trail) : _FINER * n + 1]
-        for line, z in ((beam, shapes[n]), (trace, past), (tip, past[-1:])):
+        for line, z in ((blade, shapes[n]), (trace, past), (tip, past[-1:])):
             line.set_data(z.real, z.imag)
         if of.leaves_plane:
             around = np.concatenate((edges[0][n], edges[1][n, ::-1]))

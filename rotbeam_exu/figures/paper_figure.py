@@ -69,12 +69,12 @@ def _of_paper(data: xr.Dataset) -> bool:
 
 
 def _beam(data: xr.Dataset) -> str:
-    beam = beam_of(data.attrs)
+    blade = beam_of(data.attrs)
     return (
-        f"Beam: L = {quantity(beam.length, 'm')}, EI = {beam.bending_stiffness:.5g} N m², "
-        f"EA = {quantity(beam.axial_stiffness, 'N', 4)}, "
-        f"ρA = {beam.mass_per_length:.5g} kg/m, "
-        f"μ = {beam.slenderness:.4g}."
+        f"Beam: L = {quantity(blade.length, 'm')}, EI = {blade.bending_stiffness:.5g} N m², "
+        f"EA = {quantity(blade.axial_stiffness, 'N', 4)}, "
+        f"ρA = {blade.mass_per_length:.5g} kg/m, "
+        f"μ = {blade.slenderness:.4g}."
     )
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
-from analytic import AnyBlade, Beam, Blade, Damping, PointMass, Section, Theory
+from analytic import Beam, Blade, Damping, PointMass, Section, Theory
 from analytic.description import from_description
 from analytic.input_checks import positive, rotation_speed, shown, whole_number
 from analytic.loads import Load
@@ -28,14 +28,14 @@ _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re
 class RunFile:
     """Content of a file about a run, as far as it has any; the paper's beam where it has none."""
 
-    beam: AnyBlade
+    blade: Blade
     motion: Mapping[str, float] = field(default_factory=dict)
     loads: Sequence[Load] = ()
     numerics: Mapping[str, Any] = field(default_factory=dict)
     theory: Mapping[str, Any] = field(default_factory=dict)
 
 
-def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
+def load_beam(path: str | os.PathLike[str]) -> Blade:
     """Read a beam from the table [beam] of a TOML file, or a blade from [blade], in SI units.
 
     [beam] gives length, area, second_moment, youngs_modulus and density, or length,
@@ -72,7 +72,7 @@ def load_beam(path: str | os.PathLike[str]) -> AnyBlade:
     >>> print(f"{beam.omega_0:.4f} rad/s")
     2.9100 rad/s
     """
-    return load_run_file(path, needs_beam=True).beam
+    return load_run_file(path, needs_beam=True).blade
 
 
 def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> RunFile:
@@ -90,11 +90,11 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
             raise ValueError("it has both [beam] and [blade]: keep one")
         require_keys(document)
         if "blade" in document:
-            beam = _blade(document["blade"], source.parent)
+            blade = _blade(document["blade"], source.parent)
         elif "beam" in document:
-            beam = _beam(document["beam"])
+            blade = _beam(document["beam"])
         elif document and not needs_beam:
-            beam = Beam.reference()
+            blade = Beam.reference()
         else:
             raise ValueError(f"it has no table [beam] with {', '.join(BEAM.required)}")
         run = {
@@ -107,7 +107,7 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
         loads = [from_description(one, Load) for one in document.get("loads", [])]
     except (OverflowError, TypeError, ValueError) as error:
         raise ValueError(f"{source}: {error}") from error
-    return RunFile(beam=beam, loads=loads, theory=theory, **run)
+    return RunFile(blade=blade, loads=loads, theory=theory, **run)
 
 
 def _number(name: str, value: object) -> Any:
@@ -145,14 +145,14 @@ def _read_toml(source: Path) -> dict[str, Any]:
         raise ValueError(f"{source} is not valid TOML: {error}{hint}") from error
 
 
-def _beam(table: dict[str, Any]) -> AnyBlade:
+def _beam(table: dict[str, Any]) -> Blade:
     if "axial_stiffness" in table:
         return Beam.from_stiffness(**table)
     material = {name: table[name] for name in BEAM.required}
     return _shaped(Beam(**material), table.get("shape"))
 
 
-def _blade(table: dict[str, Any], folder: Path) -> AnyBlade:
+def _blade(table: dict[str, Any], folder: Path) -> Blade:
     parts: dict[str, Any] = dict(table)
     masses, damping, line = (
         parts.pop(name, default)
@@ -194,6 +194,6 @@ def _at_stations(table: dict[str, Any], folder: Path) -> Blade:
     return Blade.from_stations(**table)
 
 
-def _shaped(beam: AnyBlade, shape: Any) -> AnyBlade:
+def _shaped(blade: Blade, shape: Any) -> Blade:
     """Return the beam with the shape of a table, or itself without one."""
-    return beam if shape is None else beam.with_shape(from_description(shape, SectionShape))
+    return blade if shape is None else blade.with_shape(from_description(shape, SectionShape))

@@ -11,7 +11,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
 
 from ..lazily import xr
@@ -84,7 +84,7 @@ def save_vtk(
 
 
 def corners(
-    beam: AnyBlade, at: FloatArray, height: ArrayLike | None, width: ArrayLike | None
+    blade: Blade, at: FloatArray, height: ArrayLike | None, width: ArrayLike | None
 ) -> FloatArray:
     """Return the corners of the sections from their axis [m], (stations, 4, 2).
 
@@ -95,7 +95,7 @@ def corners(
     if height is None or width is None:
         missing = "height" if height is None else "width"
         raise ValueError(f"a body has a height and a width: give {missing} too, or leave both out")
-    sides = sides_of(beam.blade, at, height=height, width=width)
+    sides = sides_of(blade, at, height=height, width=width)
     if not sides.all():
         raise ValueError("a body has a height and a width above zero: leave both out for a line")
     return np.asarray(_CORNERS * sides[:, None])

@@ -6,10 +6,10 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from analytic.blade_checks import require_steady_state
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
-from analytic.beam import require_steady_state
 from analytic.exact.linear.modes import driven_modes
 from analytic.warning import warn
 
@@ -57,7 +57,7 @@ class SimulationError(RuntimeError):
 
 
 def checked_steps(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     ramp_time: float,
     duration: float,
@@ -76,14 +76,14 @@ def checked_steps(
             f"ramp_time {ramp_time:g} s; take a longer duration"
         )
     steps = whole_steps(duration, step)
-    require_stretch(beam)
+    require_stretch(blade)
     if 0.0 < ramp_time < (STEPS_PER_RAMP - 1e-9) * step:
         raise ValueError(
             f"ramp_time {ramp_time:g} s holds {ramp_time / step:.3g} steps of {step:g} s, too few "
             f"to follow it: take a step of {ramp_time / STEPS_PER_RAMP:.3g} s or less"
         )
-    require_steady_state(beam, omega)
-    fastest, of = float(driven_modes(beam, omega).frequencies[0]), "the natural frequency"
+    require_steady_state(blade, omega)
+    fastest, of = float(driven_modes(blade, omega).frequencies[0]), "the natural frequency"
     if driven and max(driven) > fastest:
         fastest, of = max(driven), "a load"
     period = 2.0 * math.pi / fastest
@@ -108,24 +108,24 @@ def whole_steps(duration: float, step: float) -> int:
     return steps
 
 
-def require_stretch(beam: AnyBlade) -> None:
+def require_stretch(blade: Blade) -> None:
     """Refuse a beam so stiff along its axis that double precision does not hold its stretch."""
-    if beam.slenderness < LEAST_SLENDERNESS:
+    if blade.slenderness < LEAST_SLENDERNESS:
         raise ValueError(
-            f"the slenderness I/(AL²) = {beam.slenderness:.3g} is below {LEAST_SLENDERNESS:g}, "
+            f"the slenderness I/(AL²) = {blade.slenderness:.3g} is below {LEAST_SLENDERNESS:g}, "
             "where round-off of the stretch spoils the axial force: lower the axial stiffness EA "
-            f"below {beam.bending_stiffness / (LEAST_SLENDERNESS * beam.length**2):.3g} N, which "
+            f"below {blade.bending_stiffness / (LEAST_SLENDERNESS * blade.length**2):.3g} N, which "
             "changes nothing else"
         )
 
 
-def warn_if_coarse(beam: AnyBlade, omega: float, elements: int) -> None:
+def warn_if_coarse(blade: Blade, omega: float, elements: int) -> None:
     """Warn where the root's boundary layer is shorter than half an element.
 
     The tension N bends a rotating beam within √(EI/N) = √2 L/w̄ of its clamp; there, cubic
     elements of twice that length are off by half a percent in frequency, linear ones by more.
     """
-    layer = math.sqrt(2.0) * beam.frequency_scale / omega if omega > 0.0 else math.inf
+    layer = math.sqrt(2.0) * blade.frequency_scale / omega if omega > 0.0 else math.inf
     if elements * layer < 0.5:
         warn(
             f"at omega = {omega:g} rad/s the beam bends within {layer:.2g} L of its clamp, less "
@@ -153,19 +153,19 @@ def remedy(run: xr.Dataset, t: float) -> str:
             "linear elastic frames are for small deflection: take a longer ramp_time, more "
             f"substructures or another element, or {smaller.removeprefix('take ')}"
         )
-    beam = beam_of(attrs)
+    blade = beam_of(attrs)
     # ½mω²L²/EA at the root, Eq. 67's strain; a hub and bending add to it.
-    strain = 0.5 * beam.mass_per_length * (omega * beam.length) ** 2 / beam.axial_stiffness
-    strain *= 1.0 + 2.0 * beam.unit.hub
+    strain = 0.5 * blade.mass_per_length * (omega * blade.length) ** 2 / blade.axial_stiffness
+    strain *= 1.0 + 2.0 * blade.unit.hub
     if strain > 0.2 * STRAIN_LIMIT:
         return (
             f"the rotation alone strains the root by {strain:.2g}: lower omega below "
             f"{omega * math.sqrt(0.2 * STRAIN_LIMIT / strain):.3g} rad/s, or raise the axial "
             "stiffness EA"
         )
-    resolved = float(attrs["step"]) * max(omega, beam.omega_0) < _RESOLVED
+    resolved = float(attrs["step"]) * max(omega, blade.omega_0) < _RESOLVED
     before = run["q"].to_numpy()[run["time"].to_numpy() <= t]
-    swing = float(np.abs(before).max(initial=0.0)) / beam.length
+    swing = float(np.abs(before).max(initial=0.0)) / blade.length
     if resolved and LARGE_SWING < swing < 1.0:
         gentler = "smaller loads, more damping" if "loads" in attrs else "a longer ramp_time"
         return (
@@ -181,7 +181,7 @@ def _reach(run: xr.Dataset) -> FloatArray:
         axis = run["axis"].to_numpy()
         return np.asarray(np.linalg.norm(axis[:, -1] - axis[:, 0], axis=-1))
     unit = beam_of(run.attrs).unit
-    radius = unit.hub * float(run.attrs["beam_length"])
+    radius = unit.hub * float(run.attrs["blade_length"])
     tip = run["tip_x"].to_numpy() + 1j * run["tip_y"].to_numpy()
     in_plane = np.abs(tip - radius * np.exp(1j * run["angle"].to_numpy()))
     out_of_plane = math.sqrt(1.0 - unit.setting**2) * run["q"].to_numpy()
@@ -210,7 +210,7 @@ def check_run(run: xr.Dataset) -> str:
     """
     time = np.asarray(run["time"], dtype=np.float64)
     attrs = run.attrs
-    step, length = float(attrs["step"]), float(attrs["beam_length"])
+    step, length = float(attrs["step"]), float(attrs["blade_length"])
     for name, variable in run.data_vars.items():
         bad = ~np.isfinite(variable.to_numpy()).reshape(time.size, -1).all(axis=1)
         if bad.any():

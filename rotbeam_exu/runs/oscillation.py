@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.exact.linear.modes import driven_modes
 from analytic.input_checks import RotbeamWarning, not_negative, positive
@@ -89,7 +89,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     ----------
     run : Dataset
         As made by `simulate`, or any with `q` over `time` and the attributes ramp_time and
-        beam_length. If it holds the rest of the beam and `omega` as `simulate` writes them, the
+        blade_length. If it holds the rest of the beam and `omega` as `simulate` writes them, the
         frequency must be near the beam's natural frequency.
 
     Raises
@@ -113,7 +113,7 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     """
     _check_form(run)
     time, q = (run[name].to_numpy().astype(np.float64) for name in ("time", "q"))
-    length = positive("the attribute beam_length", run.attrs["beam_length"])
+    length = positive("the attribute blade_length", run.attrs["blade_length"])
     ramp_time = not_negative("the attribute ramp_time", run.attrs["ramp_time"])
     return oscillation_of(time, q / length, ramp_time, _natural_frequency(run))
 
@@ -185,16 +185,16 @@ def _check_form(run: xr.Dataset) -> None:
         raise TypeError(
             f"steady_oscillation takes a Dataset, got {type(run).__name__}: "
             "make one by xarray.Dataset({'q': ('time', q)}, {'time': time}, "
-            "{'ramp_time': ..., 'beam_length': ...})"
+            "{'ramp_time': ..., 'blade_length': ...})"
         )
     missing = [name for name in ("time", "q") if name not in run.variables]
     missing += [
-        f"attribute {name}" for name in ("ramp_time", "beam_length") if name not in run.attrs
+        f"attribute {name}" for name in ("ramp_time", "blade_length") if name not in run.attrs
     ]
     if missing:
         raise NoOscillationError(
             f"the run has no {' and no '.join(missing)}: give q over time, and "
-            "run.attrs ramp_time (0 if there is none) and beam_length"
+            "run.attrs ramp_time (0 if there is none) and blade_length"
         )
     if run["q"].dims != ("time",) or run["time"].dims != ("time",):
         dims = ", ".join(map(str, run["q"].dims))
@@ -212,18 +212,18 @@ def _natural_frequency(run: xr.Dataset) -> float | None:
     if "w" in run:
         return None
     try:
-        beam, omega = beam_of(run.attrs), float(run.attrs["omega"])
+        blade, omega = beam_of(run.attrs), float(run.attrs["omega"])
     except KeyError:
         return None
-    return _exact_frequency(beam, abs(omega))
+    return _exact_frequency(blade, abs(omega))
 
 
 @lru_cache(maxsize=64)
-def _exact_frequency(beam: AnyBlade, omega: float) -> float | None:
+def _exact_frequency(blade: Blade, omega: float) -> float | None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RotbeamWarning)  # said when the run was made
         try:
-            return float(driven_modes(beam, omega).frequencies[0])
+            return float(driven_modes(blade, omega).frequencies[0])
         except ValueError:
             return None  # so fast that theory has no answer to compare with
 

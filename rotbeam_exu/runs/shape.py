@@ -10,15 +10,15 @@ from numpy.typing import ArrayLike
 
 from analytic import Blade
 from analytic.arrays import FloatArray, evaluated, slope_of
-from analytic.exact.beam.kinematics import in_plane_of_bending
-from analytic.exact.beam.state import SectionLoads
-from analytic.exact.space.unit import space_unit, trapeze_of
+from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
+from analytic.exact.continuum.state import SectionLoads
+from analytic.exact.continuum.unit import space_unit, trapeze_of
 from analytic.input_checks import along
 from analytic.theory import BERNOULLI_EULER
 
 from ..labels import dataset
 from ..lazily import xr
-from .attributes import beam_attributes, beam_of
+from .attributes import beam_of, blade_attributes
 
 _ALIKE = 0.01  # of a side, by which rounded stiffnesses may vary
 
@@ -60,7 +60,7 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
             "direction": ["x", "y", "z"],
             "section_axis": ["normal", "chord", "thickness"],
         },
-        beam_attributes(found.blade),
+        blade_attributes(found.blade),
     )
 
 
@@ -141,13 +141,13 @@ def _relative(blade: Blade, name: str, at: FloatArray) -> FloatArray:
 def _strains(found: SectionLoads) -> FloatArray:
     """Return ε, γ and κ [1/m], (..., stations, 6), that force and moment cause."""
     blade, EI, L = found.blade, found.blade.bending_stiffness, found.blade.length
-    at, section = found.stations / L, blade.blade.section
-    soft = _flexibility(blade.blade, at)
+    at, section = found.stations / L, blade.section
+    soft = _flexibility(blade, at)
     loads = np.concatenate((found.force * L**2 / EI, found.moment * L / EI), axis=-1)
     shortening: Any = 0.0
     if found.trapeze and section.knows_space:
         # N acts on ε + ½k²(κ1² - κ01²): k²Nκ1 of the torque is its own.
-        twist, k2 = slope_of(blade.blade.line.in_units(L).twist, at), trapeze_of(soft)
+        twist, k2 = slope_of(blade.line.in_units(L).twist, at), trapeze_of(soft)
         pull = k2 * loads[..., 0]
         free = np.sum(soft[:, 3] * loads, axis=-1)
         change = (free - soft[:, 3, 3] * pull * twist) / (1.0 + soft[:, 3, 3] * pull)

@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 
-from analytic import AnyBlade, SpinUp
+from analytic import Blade, SpinUp
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_values, whole_number
 from analytic.loads import Load
@@ -39,7 +39,7 @@ MEASURED = {**OSCILLATION, "omega_n": "natural frequency ω_n of the mesh [rad/s
 
 
 def sweep(
-    beam: AnyBlade,
+    blade: Blade,
     *,
     omegas: Sequence[float],
     ramp_times: Sequence[float],
@@ -59,7 +59,7 @@ def sweep(
 
     Parameters
     ----------
-    beam : Beam
+    blade : Beam
         The beam.
     omegas, ramp_times : sequences of float
         The grid: steady angular velocities [rad/s] and ramp times [s], without duplicates.
@@ -109,7 +109,7 @@ def sweep(
             raise ValueError(f"{name} holds {', '.join(twice)} more than once")
     cases = {
         (omega, ramp_time): RunCase(
-            beam=beam, spin_up=SpinUp(omega=omega, ramp_time=ramp_time), element=element,
+            blade=blade, spin_up=SpinUp(omega=omega, ramp_time=ramp_time), element=element,
             elements=elements, duration=duration, step=step, frame=frame, loads=loads,
         )
         for omega, ramp_time in product(speeds, times)
@@ -237,7 +237,7 @@ def solve(case: RunCase) -> xr.Dataset:
     """
     try:
         run = run_case(case)
-        omega_n = _omega_n(case.beam, case.omega, case.model, case.elements)
+        omega_n = _omega_n(case.blade, case.omega, case.model, case.elements)
         measured = {**_steady(run), "omega_n": omega_n}
     except SimulationError as error:
         return xr.Dataset(attrs={"verdict": "failed", "failure": str(error)})
@@ -260,5 +260,5 @@ def _steady(run: xr.Dataset) -> dict[str, float]:
 
 
 @lru_cache(maxsize=64)
-def _omega_n(beam: AnyBlade, omega: float, element: Formulation, elements: int) -> float:
-    return float(Linearization.of(beam, omega, element, elements).frequencies(1)[0])
+def _omega_n(blade: Blade, omega: float, element: Formulation, elements: int) -> float:
+    return float(Linearization.of(blade, omega, element, elements).frequencies(1)[0])

@@ -192,7 +192,7 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
     if not why_not:
         try:
             orbit = analytic.periodic_orbits(
-                case.beam, case.omega, [steady.amplitude], theory=theory
+                case.blade, case.omega, [steady.amplitude], theory=theory
             )
             exact_frequency = float(orbit.frequency[0])
         except (RuntimeError, ValueError) as error:
@@ -201,10 +201,10 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
     def omega_n(elements: int) -> float:
         if elements > max(2 * _FINEST, case.elements):
             return math.nan
-        of = case.beam, case.omega
+        of = case.blade, case.omega
         return float(natural_frequencies(*of, element=case.element, elements=elements, count=1)[0])
 
-    exact_modes = driven_modes(case.beam, case.omega, theory=theory)
+    exact_modes = driven_modes(case.blade, case.omega, theory=theory)
     return Assessment(
         theory=theory.name, omega_n=omega_n(case.elements),
         refined_omega_n=omega_n(2 * case.elements),

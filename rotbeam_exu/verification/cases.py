@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from analytic import (
-    AnyBlade,
     Beam,
+    Blade,
     Damping,
     Ellipse,
     Gravity,
@@ -23,7 +23,7 @@ from analytic import (
     periodic_orbits,
 )
 from analytic.arrays import FloatArray
-from analytic.exact.beam.state import BeamState, kicked_state
+from analytic.exact.continuum.state import BeamState, kicked_state
 from analytic.loads import Load
 from analytic.theory import BERNOULLI_EULER, Theory
 
@@ -96,7 +96,7 @@ class Case:
     level: Level
     title: str
     asked: Asked
-    blade: AnyBlade
+    blade: Blade
     motion: SpinUp | SteadyRotation | None = None
     duration: float = 0.0
     speeds: tuple[float, ...] = ()
@@ -191,7 +191,7 @@ _QUANTITIES = {
 
 
 def spin_up_case(
-    beam: AnyBlade,
+    blade: Blade,
     spin_up: SpinUp,
     duration: float,
     name: str = "S",
@@ -200,16 +200,21 @@ def spin_up_case(
     """Return the case of a spin-up that nothing damps."""
     title = f"spin-up to {spin_up.omega:g} rad/s in {spin_up.ramp_time:g} s"
     return Case(
-        name=name, level=level, title=title, asked=Asked.HISTORY, blade=beam, motion=spin_up,
+        name=name, level=level, title=title, asked=Asked.HISTORY, blade=blade, motion=spin_up,
         duration=duration, oscillates=True,
     )  # fmt: skip
 
 
-def frequency_case(beam: AnyBlade, speeds: tuple[float, ...]) -> Case:
+def frequency_case(blade: Blade, speeds: tuple[float, ...]) -> Case:
     """Return the case of linear frequencies."""
     title = "first natural frequency in steady rotation"
     return Case(
-        name="L", level=Level.BASIC, title=title, asked=Asked.FREQUENCIES, blade=beam, speeds=speeds
+        name="L",
+        level=Level.BASIC,
+        title=title,
+        asked=Asked.FREQUENCIES,
+        blade=blade,
+        speeds=speeds,
     )
 
 
@@ -221,16 +226,16 @@ SPEEDS = (0.0, 2.0, 4.0, 6.0, 8.0)
 
 
 def _cases() -> tuple[Case, ...]:
-    beam = Beam.reference()
-    length, mass = beam.length, beam.mass_per_length * beam.length
+    blade = Beam.reference()
+    length, mass = blade.length, blade.mass_per_length * blade.length
 
     def spun_up(name: str, level: Level, omega: float, ramp_time: float, duration: float) -> Case:
-        return spin_up_case(beam, SpinUp(omega=omega, ramp_time=ramp_time), duration, name, level)
+        return spin_up_case(blade, SpinUp(omega=omega, ramp_time=ramp_time), duration, name, level)
 
     s1 = spun_up("S1", Level.BASIC, 6.0, 3.0, 15.0)
     as_s1 = replace(s1, level=Level.BLADE)
     return (
-        frequency_case(beam, SPEEDS),
+        frequency_case(blade, SPEEDS),
         s1,
         Case(
             name="V", level=Level.BASIC, title="spin-up of Simo and Vu-Quoc", asked=Asked.HISTORY,
@@ -243,38 +248,38 @@ def _cases() -> tuple[Case, ...]:
         spun_up("S3", Level.MODERATE, 4.0, 2.0, 15.0),
         Case(
             name="O", level=Level.MODERATE, title="start on an exact orbit, no ramp",
-            asked=Asked.HISTORY, blade=beam, motion=SteadyRotation(omega=2.0), duration=20.0,
+            asked=Asked.HISTORY, blade=blade, motion=SteadyRotation(omega=2.0), duration=20.0,
             amplitudes=(0.4,), oscillates=True,
         ),
         spun_up("S4", Level.HARD, 8.0, 2.0, 15.0),
         Case(
-            name="B", level=Level.HARD, title="backbones", asked=Asked.BACKBONE, blade=beam,
+            name="B", level=Level.HARD, title="backbones", asked=Asked.BACKBONE, blade=blade,
             speeds=(2.0, 6.0, 8.0), amplitudes=(0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
         ),
-        replace(as_s1, name="S1+h", title="S1 on a hub", blade=beam.with_hub_radius(0.5 * length)),
+        replace(as_s1, name="S1+h", title="S1 on a hub", blade=blade.with_hub_radius(0.5 * length)),
         # Half the beam's mass would swing by 0.93 L, farther than orbits are known.
         replace(
-            as_s1, name="S1+m", title="S1 with a tip mass", blade=beam.with_tip_mass(0.1 * mass)
+            as_s1, name="S1+m", title="S1 with a tip mass", blade=blade.with_tip_mass(0.1 * mass)
         ),
         # A hundredth of the critical damping of the first mode at rest.
         replace(
             as_s1, name="S1+d", title="S1 with viscous bending", oscillates=False,
-            blade=beam.with_damping(Damping(bending=0.007)),
+            blade=blade.with_damping(Damping(bending=0.007)),
         ),
         replace(
             as_s1, name="S1+g", title="S1 under gravity", oscillates=False, loads=(Gravity(9.81),)
         ),
-        *_stout(beam),
+        *_stout(blade),
         *_in_space(),
     )  # fmt: skip
 
 
-def _stout(beam: Beam) -> tuple[Case, ...]:
+def _stout(blade: Beam) -> tuple[Case, ...]:
     """Return the cases of S3's beam with so small an EA that shear and rotary inertia count."""
-    EI, length, slenderness = beam.bending_stiffness, beam.length, 30.0
+    EI, length, slenderness = blade.bending_stiffness, blade.length, 30.0
     stout = Beam.from_stiffness(
         length=length, axial_stiffness=EI * (slenderness / length) ** 2,
-        bending_stiffness=EI, mass_per_length=beam.mass_per_length,
+        bending_stiffness=EI, mass_per_length=blade.mass_per_length,
     )  # fmt: skip
     laws = Theory(), Theory(shear=SHEAR), Theory(shear=SHEAR, engesser=True)
     theories = tuple(replace(law, rotary_inertia=turns) for law in laws for turns in (False, True))
@@ -289,15 +294,15 @@ def _stout(beam: Beam) -> tuple[Case, ...]:
 def _in_space() -> tuple[Case, ...]:
     """Return the cases of a plastic blade, a full ellipse of 320 mm by 80 mm, and of a tube."""
     height, width = 0.32, 0.08
-    beam = Beam(
+    blade = Beam(
         length=8.0, area=0.25 * math.pi * height * width,
         second_moment=math.pi / 64.0 * height**3 * width, youngs_modulus=1e9, density=1200.0,
     )  # fmt: skip
-    straight = beam.with_shape(Ellipse(ratio=height / width))
+    straight = blade.with_shape(Ellipse(ratio=height / width))
     twisted = straight.with_twist(math.pi / 6.0)
     coned, theories = twisted.with_precone(0.05), (BERNOULLI_EULER, Theory(shear=SHEAR))
 
-    def case(name: str, title: str, asked: Asked, blade: AnyBlade, **more: Any) -> Case:
+    def case(name: str, title: str, asked: Asked, blade: Blade, **more: Any) -> Case:
         return Case(
             name=name, level=Level.SPACE, title=title, asked=asked, blade=blade, in_space=True,
             theories=theories, **more,

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
 
 from ..fem.elements import (
@@ -48,7 +48,7 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         if getattr(model, field.name) != field.default
     ]
 
-    def frame_of(blade: AnyBlade) -> Frame:
+    def frame_of(blade: Blade) -> Frame:
         """Return the frame in which the element takes the blade; refuse one that it does not."""
         turns = model.setting(blade) == 1.0 or not model.constant_mass
         frame: Frame = "inertial" if turns else "rotating"

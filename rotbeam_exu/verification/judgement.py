@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.threads import one_thread
 
 from .cases import CASES, TIP, Asked, Case
@@ -186,7 +186,7 @@ def judged(
     histories: dict[str, Histories] = {}
     sources: dict[str, str] = {}
     remarks: dict[str, list[str]] = {}
-    linear: dict[AnyBlade, dict[float, Convergence]] = defaultdict(dict)
+    linear: dict[Blade, dict[float, Convergence]] = defaultdict(dict)
     # Frequencies come first: what they tend to is taken from the nonlinear ones.
     chosen = [
         case

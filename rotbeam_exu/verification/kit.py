@@ -166,7 +166,7 @@ def row_of(case: Case) -> dict[str, Any]:
 
     ValueError of a case that is more than they say.
     """
-    blade, motion = case.blade.blade, case.motion
+    blade, motion = case.blade, case.motion
     section, out_of_plane = blade.section, blade.section.out_of_plane
     gravity = next((one for one in case.loads if isinstance(one, Gravity)), Gravity(0.0))
     row = {

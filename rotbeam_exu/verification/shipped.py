@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
@@ -150,7 +150,7 @@ class Shipped:
             found[str(of)] = float(omega_n), over_square
         return found
 
-    def frequency_at(self, blade: AnyBlade, speed: float, amplitude: float) -> float | None:
+    def frequency_at(self, blade: Blade, speed: float, amplitude: float) -> float | None:
         """Return ω_NL [rad/s] at a peak |q|/L; None if it is not here."""
         omega_n, curvature = self._backbones.get(said((blade, speed)), (0.0, None))
         if curvature is None or not amplitude**2 <= curvature.x[-1]:

@@ -20,7 +20,7 @@ from typing import Protocol
 
 import numpy as np
 
-from analytic import AnyBlade, Beam, SpinUp
+from analytic import Beam, Blade, SpinUp
 from analytic.arrays import FloatArray
 from analytic.input_checks import whole_number
 from analytic.theory import BERNOULLI_EULER, Theory
@@ -119,7 +119,7 @@ class Entry:
 def verify(
     entry: Entry,
     *,
-    beam: AnyBlade | None = None,
+    blade: Blade | None = None,
     spin_up: SpinUp | None = None,
     duration: float = 15.0,
 ) -> Judgement:
@@ -129,7 +129,7 @@ def verify(
     ----------
     entry : Entry
         The code, its meshes and its step.
-    beam : Beam, optional
+    blade : Beam, optional
         The paper's by default, whose cases L, S1, S2, O and S4 are then judged.
     spin_up : SpinUp, optional
         A single one to be judged instead; of a beam that is given ω = 6 rad/s in T = 3 s.
@@ -146,10 +146,10 @@ def verify(
     >>> print(verify(entry, spin_up=SpinUp(omega=2.0, ramp_time=3.0), duration=8.0).outcome)
     1 of 2 agrees, 1 undecided (L)
     """
-    if beam is None and spin_up is None:
+    if blade is None and spin_up is None:
         cases = [CASES[name] for name in (IN_SPACE if entry.in_space else DEFAULT)]
     else:
-        blade, motion = beam or Beam.reference(), spin_up or SpinUp(omega=6.0, ramp_time=3.0)
+        blade, motion = blade or Beam.reference(), spin_up or SpinUp(omega=6.0, ramp_time=3.0)
         faster = blade.omega_0 / Beam.reference().omega_0
         speeds = tuple(speed * faster for speed in SPEEDS)
         cases = [frequency_case(blade, speeds), spin_up_case(blade, motion, duration)]

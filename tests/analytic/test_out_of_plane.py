@@ -69,8 +69,8 @@ def test_they_are_values_and_travel(beam):
     assert again == blade
     assert hash(again) == hash(blade)
     assert again.section.out_of_plane.torsion_ratio == math.inf
-    assert blade.unit == beam.blade.unit, "nothing in the plane knows of it"
-    assert beam.blade.section.out_of_plane is None
+    assert blade.unit == beam.unit, "nothing in the plane knows of it"
+    assert beam.section.out_of_plane is None
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from analytic import (
     residual_amplitude,
     spin_up_response,
 )
-from analytic.exact.beam.steady import resolved_model, solve_modes, steady_rotation
+from analytic.exact.continuum.planar_rotation import resolved_model, solve_modes, steady_rotation
 from analytic.shape_functions import shape_functions
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import UNIT

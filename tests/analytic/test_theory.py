@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from analytic import Section, SpinUp, Theory, linear_modes, periodic_orbits, spin_up_response
-from analytic.exact.beam.state import Driven
-from analytic.exact.beam.steady import SteadyBeam, continuum
+from analytic.exact.continuum.planar_rotation import SteadyBeam, continuum
+from analytic.exact.continuum.state import Driven
 from analytic.theory import BERNOULLI_EULER
 from tests.beams import SHARE, unit_beam
 

@@ -36,7 +36,7 @@ def test_a_reed_is_shown_as_long_as_the_papers_beam(call, monkeypatch, tmp_path)
         Beam.reference(), SpinUp(omega=6.0, ramp_time=3.0), np.linspace(0.0, 12.0, 241),
         tolerance=1e-4,
     )  # fmt: skip
-    largest = abs(data.q).max().item() / data.attrs["beam_length"]
+    largest = abs(data.q).max().item() / data.attrs["blade_length"]
     assert largest == pytest.approx(np.abs(paper.q).max() / 8.0, rel=0.05)
 
 

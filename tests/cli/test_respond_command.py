@@ -31,7 +31,7 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
     assert code == 0
     assert error == ""
     ((blade, omega, ripple, frequencies, functions),) = asked
-    assert (blade, omega, ripple, functions) == (folded.beam, 6.0, folded.load, 8)
+    assert (blade, omega, ripple, functions) == (folded.blade, 6.0, folded.load, 8)
     assert frequencies.tolist() == [3.7, 3.76]
     rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
     assert [row[0] for row in rows] == ["start", "fold", "fold", "peak", "end"]
@@ -49,7 +49,7 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
     xr.testing.assert_equal(data, dataset_of(folded))
     assert set(table["phase [rad]"]) == set(folded.phase)
     assert (data["cosine"] - 1j * data["sine"]).to_numpy() == pytest.approx(folded.harmonics)
-    assert beam_of(data.attrs) == folded.beam
+    assert beam_of(data.attrs) == folded.blade
     attrs = {"load": "SpeedRipple", "load_size": 0.002, "load_unit": "rad/s", "omega": 6.0}
     assert attrs.items() <= data.attrs.items()
     assert "numpy" in data.attrs["versions"]

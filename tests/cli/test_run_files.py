@@ -97,7 +97,7 @@ def test_loads_and_damping_of_the_file_and_of_options(call, config, tmp_path, re
     options = ("--tip-force", "0.5", "--load-frequency", "3", "--damping-ratio", "0.01")
     (case,), _ = reached(simulation, "run_case", "run", *options, "--force")
     assert case.loads == (TipForce(amplitude=0.5, frequency=3.0),)
-    assert case.beam.damping == Damping.from_ratio(Beam.reference(), 1, 0.01)
+    assert case.blade.damping == Damping.from_ratio(Beam.reference(), 1, 0.01)
     assert reached(grid, "sweep", "sweep")[1]["loads"] == (Gravity(1.6),)
 
 

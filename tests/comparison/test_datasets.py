@@ -25,7 +25,7 @@ MOTION = SpinUp(omega=1.0, ramp_time=1.0)
 def oscillating():
     time = np.linspace(0.0, 20.0, 1001)
     q = xr.DataArray(2.0 * np.sin(3.7 * time), dims="time", coords={"time": time})
-    return steady_oscillation(xr.Dataset({"q": q}, attrs={"ramp_time": 0.0, "beam_length": 8.0}))
+    return steady_oscillation(xr.Dataset({"q": q}, attrs={"ramp_time": 0.0, "blade_length": 8.0}))
 
 
 def spun(blade):

@@ -21,7 +21,7 @@ MODULES = sorted(
 SLOW = {
     "analytic.exact.driven.forced", "analytic.exact.driven.forced_orbits",
     "analytic.exact.free.backbone", "analytic.exact.free.leaving", "analytic.exact.linear.campbell",
-    "analytic.exact.plane.growth", "analytic.exact.free.stability_limit",
+    "analytic.exact.stability.growth", "analytic.exact.free.stability_limit",
     "analytic.reduced.symbolic", "analytic.reduced.tables", "analytic.spin_up.design",
     "analytic.spin_up.quiet", "rotbeam_exu.sweeps.grid", "rotbeam_exu.verification.verify",
 }  # fmt: skip

@@ -31,19 +31,19 @@ PLAIN = {
         "rotbeam_exu.SimulationError"
     ),
     "a type, a list of names, a protocol": (
-        "analytic.AnyBlade analytic.VARIANTS rotbeam_exu.fem.elements.Formulation"
+        "analytic.Blade analytic.VARIANTS rotbeam_exu.fem.elements.Formulation"
     ),
 }
 """Names without an example, by the reason."""
 PLAIN_NAMES = set(" ".join(PLAIN.values()).split())
 BEYOND = {
-    "analytic.exact.beam.state", "analytic.exact.driven.forced_orbits",
+    "analytic.exact.continuum.state", "analytic.exact.driven.forced_orbits",
     "analytic.exact.driven.response", "analytic.exact.free.backbone",
     "analytic.exact.free.branch", "analytic.exact.free.branches", "analytic.exact.free.curve",
     "analytic.exact.free.internal_resonance", "analytic.exact.free.leaving",
     "analytic.exact.free.orbits", "analytic.exact.linear.campbell",
-    "analytic.exact.linear.modes", "analytic.exact.plane.growth",
-    "analytic.exact.free.stability_limit", "analytic.exact.space.modes",
+    "analytic.exact.linear.modes", "analytic.exact.stability.growth",
+    "analytic.exact.free.stability_limit", "analytic.exact.linear.space_modes",
     "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.model_range",
     "analytic.section", "analytic.spin_up.quiet",
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from analytic import Beam, linear_modes
-from analytic.exact.beam.steady import steady_rotation
+from analytic.exact.continuum.planar_rotation import steady_rotation
 from rotbeam_exu import natural_frequencies
 from rotbeam_exu.fem.linearization import Linearization
 

@@ -25,8 +25,8 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from analytic.exact.beam.state import BeamState
-from analytic.exact.beam.steady import stretched_state
+from analytic.exact.continuum.planar_rotation import stretched_state
+from analytic.exact.continuum.state import BeamState
 from analytic.theory import Theory
 from rotbeam_exu import kicked, simulate
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, SpaceCable, SpaceExact

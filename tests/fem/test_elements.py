@@ -43,7 +43,7 @@ of_all = pytest.mark.parametrize(("model", "blade"), CASES, ids=[str(one) for on
 
 
 def unit_of(blade):
-    return Units.of(blade).beam(blade)
+    return Units.of(blade).blade(blade)
 
 
 def deformed(model, reference, size):

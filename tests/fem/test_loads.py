@@ -90,7 +90,7 @@ def test_a_run_tells_its_loads(beam, tmp_path):
     assert json.loads(run.attrs["loads"])[0] == {"kind": "Gravity", "gravity": 2.0, "tilt": 0.0}
     # A cache is keyed by what a case says of itself.
     keys = [
-        json.dumps(RunCase(beam=beam, **options, loads=loads).describe())
+        json.dumps(RunCase(blade=beam, **options, loads=loads).describe())
         for loads in ((), ALL[:1], ALL[1:2], (replace(ALL[1], frequency=6.0),))
     ]
     assert len(set(keys)) == len(keys)

@@ -29,8 +29,8 @@ from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.fem.elements import Cable
 from rotbeam_exu.files.results import differing_inputs
 from rotbeam_exu.runs.attributes import (
-    beam_attributes,
     beam_of,
+    blade_attributes,
     loads_of,
     motion_attributes,
     motion_of,
@@ -353,7 +353,7 @@ def test_blades_are_read_back(beam):
     strip = beam.with_shape(Rectangle()).with_tip_mass(0.1, 0.2).with_damping(Damping(axial=1e-3))
     stiff = beam.with_section_out_of_plane(1.0, np.inf)
     for blade in (beam, strip, beam.with_setting_angle(1.0), stiff):
-        assert beam_of(beam_attributes(blade)) == blade
+        assert beam_of(blade_attributes(blade)) == blade
         assert from_description(describe(blade), type(blade)) == blade
 
 

@@ -71,7 +71,7 @@ def momentum(mbs, numbers):
     )
     e += numbers.chain.reference(mbs)
     return numbers.model.energy_and_momentum(
-        numbers.beam, numbers.mass, numbers.chain.turning, e[None], v[None], np.zeros(1)
+        numbers.blade, numbers.mass, numbers.chain.turning, e[None], v[None], np.zeros(1)
     )[1][0]
 
 

@@ -197,8 +197,8 @@ def test_the_station_at_the_root_has_the_forces_of_the_constraints(beam, element
         at_root = (section[:, 0] @ run[kind].to_numpy()[:, 0, :, None])[..., 0]
         by_clamp = np.column_stack([run[f"root_{kind}_{axis}"] for axis in "xyz"])
         np.testing.assert_allclose(at_root, by_clamp, atol=1e-6 * np.abs(by_clamp).max())
-    if space or not blade.blade.setting_angle:  # else what holds it in its plane has a share
-        cone, hub = blade.blade.line.precone, blade.blade.hub_radius
+    if space or not blade.setting_angle:  # else what holds it in its plane has a share
+        cone, hub = blade.line.precone, blade.hub_radius
         moment = np.cos(cone) * run["root_moment_z"] + hub * run["root_force_y"]
         if space:
             moment += np.sin(cone) * run["root_moment_x"]
@@ -211,7 +211,7 @@ def test_the_station_at_the_root_has_the_forces_of_the_constraints(beam, element
         tip = run["axis"].to_numpy()[:, -1] - run["axis"].to_numpy()[:, 0]
         np.testing.assert_allclose(place[:, -1], tip, atol=1e-7)
     else:
-        lag, flap = (run["q"] * f(blade.blade.setting_angle) for f in (np.cos, np.sin))
+        lag, flap = (run["q"] * f(blade.setting_angle) for f in (np.cos, np.sin))
         np.testing.assert_allclose(place[:, -1, 1:], np.transpose([lag, flap]), atol=1e-12)
 
 

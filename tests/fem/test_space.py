@@ -13,7 +13,7 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from analytic.exact.beam.state import BeamState
+from analytic.exact.continuum.state import BeamState
 from rotbeam_exu import kicked, natural_frequencies, simulate
 from rotbeam_exu.fem.columns import twist
 from rotbeam_exu.fem.elements import SpaceExact
@@ -117,7 +117,7 @@ def growth_rate_of(run, period):
     The envelope is the root mean square of w and w_dot/Ω over a period of the planar orbit; what
     its logarithm gains in whole periods is averaged over the last three powers of ten up to L/100.
     """
-    time, length = run["time"].to_numpy(), run.attrs["beam_length"]
+    time, length = run["time"].to_numpy(), run.attrs["blade_length"]
     w, w_dot = (run[name].to_numpy() / length for name in ("w", "w_dot"))
     squares = w**2 + (w_dot * period / (2.0 * np.pi)) ** 2
     steps = 0.5 * np.diff(time) * (squares[1:] + squares[:-1])
@@ -141,7 +141,7 @@ def test_rate_of_a_known_growth(rate):
     time = np.linspace(0.0, 12.0, 4001)
     w = 8e-6 * np.exp(rate * time) * np.cos(3.1 * time)
     columns = {"w": ("time", w), "w_dot": ("time", np.gradient(w, time))}
-    run = xr.Dataset(columns, {"time": time}, {"beam_length": 8.0})
+    run = xr.Dataset(columns, {"time": time}, {"blade_length": 8.0})
     found, decades = growth_rate_of(run, 2.0 * np.pi / 10.0)
     # A window of a period that is not w's own leaves ripples, over the three decades 2 %.
     assert found == pytest.approx(rate, rel=0.02)

@@ -19,7 +19,7 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
-from analytic.exact.beam.state import kicked_state
+from analytic.exact.continuum.state import kicked_state
 from rotbeam_exu import dataset_of, natural_frequencies, simulate
 from rotbeam_exu.fem.elements import SpaceExact
 from rotbeam_exu.fem.linearization import Linearization

@@ -50,7 +50,7 @@ def test_both_views_show_the_same_beam_turned(response):
         np.testing.assert_allclose(inertial, rotating * np.exp(1j * angle), atol=1e-12)
         tip = inertial[-1]
         np.testing.assert_allclose([tip.real, tip.imag], response.from_axis[n, :2], atol=1e-9)
-        assert dot == (response.time[n], response.q[n] / response.beam.length)
+        assert dot == (response.time[n], response.q[n] / response.blade.length)
         assert rotating[-1].imag == pytest.approx(response.q[n], abs=1e-9)
     animation._fig.draw_without_rendering()  # only now the axes take their shape
     for ax in animation._fig.axes[:2]:  # to scale
@@ -107,13 +107,13 @@ def test_the_time_from_which_the_linear_one_is_unstable_is_said(two_models, side
     (mark,) = (t.get_text() for t in side_by_side[2].texts if "unstable" in t.get_text())
     linear, passed = two_models[1], float(mark.split()[1])
     speeds = linear.spin_up.rate(np.array([passed - 0.01, passed + 0.01]))
-    assert speeds[0] < linear.beam.omega_0 < speeds[1]
+    assert speeds[0] < linear.blade.omega_0 < speeds[1]
 
 
 def test_what_is_far_is_drawn_out_of_the_view_at_a_finite_place(two_models, side_by_side):
     _, view, _, draw = side_by_side
     draw(80)
-    far = 100.0 * two_models[1].beam.length
+    far = 100.0 * two_models[1].blade.length
     assert np.abs(two_models[1].q[80]) > far
     assert np.abs(seen_in(view)[-1]) == pytest.approx(far)
 
@@ -132,7 +132,7 @@ def test_another_motion_beside_is_refused(beam, response):
 def test_a_blade_in_space_is_seen_from_above_and_from_the_side(beam):
     """Twisted, coned and on a hub; the strip is as wide as the chord is seen."""
     blade = beam.with_section_out_of_plane(0.25, 0.2).with_twist(0.8).with_precone(0.15)
-    blade, length = blade.blade.with_hub_radius(0.8), beam.length
+    blade, length = blade.with_hub_radius(0.8), beam.length
     times, points = np.linspace(0.0, 0.8, 5), np.linspace(0.0, length, 9)
     motion = SpinUp(omega=2.0, ramp_time=0.8)
     data = dataset_of(spin_up_response(blade, motion, times, tolerance=1e-2, points=points))

@@ -16,7 +16,7 @@ BEAM = Beam.reference()
 def curves(folded):
     """One response, once more as of a blade with another damping, which is its name."""
     other = BEAM.with_damping(Damping.from_ratio(BEAM, ratio=2e-3))
-    return [dataset_of(folded), dataset_of(replace(folded, beam=other))]
+    return [dataset_of(folded), dataset_of(replace(folded, blade=other))]
 
 
 def shown(line):

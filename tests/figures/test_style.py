@@ -14,7 +14,7 @@ from analytic import Beam
 from rotbeam_exu import figures
 from rotbeam_exu.figures.style import fitting_units, prefix_of, quantity, typeset
 from rotbeam_exu.paper import MODEL_LINES, RAMP_TIMES, SPEEDS
-from rotbeam_exu.runs.attributes import beam_attributes
+from rotbeam_exu.runs.attributes import blade_attributes
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def data():
             "amplitude_error": (mesh, bars),
         },
         {"model": ["CE", "CI", "exact"], "omega": [6.0], "a": a, "mesh": ["paper"], "ramp_time": t},
-        {**beam_attributes(Beam.reference()), "meshes": "16 cable elements"},
+        {**blade_attributes(Beam.reference()), "meshes": "16 cable elements"},
     )  # fmt: skip
 
 
@@ -132,5 +132,5 @@ def test_a_caption_has_the_claim_of_the_paper_s_data_only(data):
         omega=list(SPEEDS), ramp_time=list(RAMP_TIMES)
     )
     assert "The paper explains" in figures.caption(14, all_of_it)
-    other = beam_attributes(replace(Beam.reference(), length=2.0))
+    other = blade_attributes(replace(Beam.reference(), length=2.0))
     assert "The paper explains" not in figures.caption(14, all_of_it.assign_attrs(other))

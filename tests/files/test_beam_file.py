@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from analytic import Beam, Blade, Damping, Ellipse, Rectangle, Section
 from rotbeam_exu.files.beam_file import load_beam, load_run_file
-from rotbeam_exu.runs.attributes import beam_attributes, beam_of
+from rotbeam_exu.runs.attributes import beam_of, blade_attributes
 from tests.beams import BLADE_TOML
 
 GOOD = """[beam]
@@ -77,7 +77,7 @@ def test_no_rotary_inertia_is_other_than_none_told(tmp_path):
     for told, found in (("", None), ("rotary_inertia = 0", 0.0), ("rotary_inertia = 1e-4", 1e-4)):
         blade = load_beam(written(tmp_path / "blade.toml", f"{BLADE_TOML}{told}\n"))
         assert blade.section.rotary_inertia == found
-        assert beam_of(beam_attributes(blade)) == blade
+        assert beam_of(blade_attributes(blade)) == blade
 
 
 MASS = "mass_per_length = [0.2, -0.02]"

@@ -56,7 +56,7 @@ def test_csv_is_a_plain_table_and_a_json_file_says_what_was_run(run, tmp_path):
     assert list(about["tables"]["run.csv"]) == list(table)
     assert about["tables"]["run.csv"]["q [m]"] == run["q"].attrs["long_name"]
     known = about["attributes"]
-    assert (known["beam_length"], known["element"], known["step"]) == (8.0, "cable", 0.005)
+    assert (known["blade_length"], known["element"], known["step"]) == (8.0, "cable", 0.005)
     assert known["versions"] == json.loads(run.attrs["versions"])
     assert known.keys() == run.attrs.keys()
     assert len(list(tmp_path.iterdir())) == 2
@@ -292,7 +292,7 @@ def test_inputs_that_differ_from_a_file_are_named(run, tmp_path, ending):
     # Before it is computed, its inputs will do.
     inputs = {**run.attrs, "elements": np.int64(2)}
     assert differing_inputs(inputs, path) == {}
-    assert differing_inputs({**inputs, "beam_length": 9.0}, path) == {"beam_length": (9.0, 8.0)}
+    assert differing_inputs({**inputs, "blade_length": 9.0}, path) == {"blade_length": (9.0, 8.0)}
 
 
 @pytest.mark.parametrize("ending", [".nc", ".csv"])

@@ -158,8 +158,8 @@ def test_sides_of_other_blades_that_vary(beam):
         (flat, "width"), (table, "height"), (beam.with_shape(Tube()).with_taper(0.3, 0.3), "width")
     ):  # fmt: skip
         with pytest.raises(ValueError, match=f"the {name} of this blade varies"):
-            sides_of(blade.blade, at, **{name: 0.2})
-        given = sides_of(blade.blade, at, **{name: [0.2, 0.1]})
+            sides_of(blade, at, **{name: 0.2})
+        given = sides_of(blade, at, **{name: [0.2, 0.1]})
         assert given.ravel().tolist() == [0.2, 0.1]
     with pytest.raises(ValueError, match="height must be one number in m, or one at each of the 2"):
         sides_of(table, at, height=[0.3, 0.2, 0.1])

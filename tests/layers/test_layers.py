@@ -93,7 +93,7 @@ def test_every_room_has_a_floor_no_arrow_points_up_and_each_library_has_its_room
     ("name", "target"),
     [
         ("analytic.beam", "exudyn"),
-        ("analytic.methods.harmonic_balance", "analytic.exact.beam.continuum"),
+        ("analytic.methods.harmonic_balance", "analytic.exact.continuum.planar"),
         ("analytic.reduced.model", "analytic.exact.linear.modes"),
         ("analytic.exact.linear.modes", "rotbeam_exu.runs.check"),
         ("rotbeam_exu.verification.verify", "exudyn"),
@@ -136,8 +136,8 @@ def test_the_reference_lists_what_is_built_on_first():
         ("analytic.reduced.shapes", "analytic.reduced.lagrangian"),
         ("analytic.reduced.lagrangian", "analytic.reduced.model"),
         ("analytic.reduced.model_range", "analytic.reduced.tables"),
-        ("analytic.methods.system", "analytic.exact.beam.continuum"),
-        ("analytic.exact.beam.continuum", "analytic.exact.free.backbone"),
+        ("analytic.methods.system", "analytic.exact.continuum.planar"),
+        ("analytic.exact.continuum.planar", "analytic.exact.free.backbone"),
     ):
         assert theory.index(first) < theory.index(then)
 

@@ -19,7 +19,7 @@ def signal(frequency=3.7, second=0.0, duration=15.0, ramp_time=3.0, step=5e-3):
     return xr.Dataset(
         {"q": ("time", q)},
         coords={"time": time},
-        attrs={"ramp_time": ramp_time, "beam_length": 8.0},
+        attrs={"ramp_time": ramp_time, "blade_length": 8.0},
     )
 
 
@@ -75,7 +75,7 @@ def beside(rng, ratio, extra):
     run = xr.Dataset(
         {"q": ("time", periodic(frequency * time) + other)},
         {"time": time},
-        {"ramp_time": 0.0, "beam_length": 1.0},
+        {"ramp_time": 0.0, "blade_length": 1.0},
     )
     return run, frequency, 0.5 * np.ptp(periodic(np.linspace(0.0, 2.0 * np.pi, 200001)))
 
@@ -123,7 +123,7 @@ def scaled(run, time=1.0, length=1.0):
     return xr.Dataset(
         {"q": ("time", length * run["q"].to_numpy())},
         {"time": time * run["time"].to_numpy()},
-        {"ramp_time": time * run.attrs["ramp_time"], "beam_length": length * 8.0},
+        {"ramp_time": time * run.attrs["ramp_time"], "blade_length": length * 8.0},
     )
 
 
@@ -160,7 +160,7 @@ def test_uneven_times_are_measured_as_they_are():
 
 
 REED = {
-    "beam_length": 0.05, "beam_area": 2.5e-6, "beam_second_moment": 5.208e-14,
+    "blade_length": 0.05, "beam_area": 2.5e-6, "beam_second_moment": 5.208e-14,
     "beam_youngs_modulus": 2.1e11, "beam_density": 7850.0, "omega": 1000.0, "ramp_time": 0.006,
 }  # fmt: skip
 
@@ -214,11 +214,11 @@ def without(name):
         (swings(lambda t: 0.0 * t), "take an omega other than zero"),
         (signal()["q"].to_numpy(), "takes a Dataset, got ndarray"),
         (without("ramp_time"), "no attribute ramp_time"),
-        (without("beam_length"), "no attribute beam_length"),
+        (without("blade_length"), "no attribute blade_length"),
         (signal().drop_vars("q"), "the run has no q"),
         (signal().drop_vars("time"), "the run has no time"),
         (signal().expand_dims(case=2), "dimensions case, time"),
-        (signal().assign_attrs(beam_length=0.0), "beam_length must be positive"),
+        (signal().assign_attrs(blade_length=0.0), "blade_length must be positive"),
         (signal().assign_attrs(ramp_time=15.0), "samples after the ramp"),
         (signal(duration=3.2), "does not oscillate"),
     ],

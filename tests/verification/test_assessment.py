@@ -16,7 +16,7 @@ OMEGA = 6.0
 
 def assessed(elements, frequency=3.7225, amplitude=0.32, element="cable"):
     spin_up = SpinUp(omega=OMEGA, ramp_time=3.0)
-    case = RunCase(beam=Beam.reference(), spin_up=spin_up, elements=elements, element=element)
+    case = RunCase(blade=Beam.reference(), spin_up=spin_up, elements=elements, element=element)
     return assess(case, SimpleNamespace(frequency=frequency, amplitude=amplitude))
 
 

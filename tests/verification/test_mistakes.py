@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from analytic import FourierRamp, SpeedTable, SpinUp, linear_modes, spin_up_response
-from analytic.exact.beam.state import Driven
-from analytic.exact.beam.steady import continuum
+from analytic.exact.continuum.planar_rotation import continuum
+from analytic.exact.continuum.state import Driven
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import converged
 from rotbeam_exu.verification.judgement import judged

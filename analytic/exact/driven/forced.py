@@ -10,20 +10,27 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, warn_if_rpm
+from ...blade import Blade
+from ...blade_checks import warn_if_rpm
 from ...input_checks import finite_values, rotation_speed, whole_number
 from ...loads import Load
 from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.continuum import Continuum
-from ..beam.state import Driven
-from ..beam.steady import MOST_FUNCTIONS, Discretized, SteadyBeam, resolved_model, steady_rotation
+from ..continuum.planar import Continuum
+from ..continuum.planar_rotation import (
+    MOST_FUNCTIONS,
+    Discretized,
+    SteadyBeam,
+    resolved_model,
+    steady_rotation,
+)
+from ..continuum.rotation import SpaceBlade, lives_in_space, space_continuum, space_rotation
+from ..continuum.space import SpaceContinuum
+from ..continuum.state import Driven
 from ..linear.modes import driven_modes
-from ..space.continuum import SpaceContinuum
-from ..space.modes import DIRECTIONS, require_gauge
-from ..space.steady import SpaceBlade, lives_in_space, space_continuum, space_rotation
+from ..linear.space_modes import DIRECTIONS, require_gauge
 from .forced_orbits import ForcedResponse, ResponseNotReachedError
 from .transient import pushes, unit_load
 
@@ -99,7 +106,7 @@ class DrivenBlade(Discretized):
 
 @one_thread
 def forced_response(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float | Sequence[float] | FloatArray,
     load: Load,
     frequencies: Sequence[float] | FloatArray | None = None,
@@ -121,7 +128,7 @@ def forced_response(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
         With damping: see `Blade.with_damping`.
     omega : float or sequence of float
         Rotation speed ω [rad/s]; under gravity speeds, ascending, in place of the frequencies.
@@ -159,7 +166,7 @@ def forced_response(
     >>> print(found.amplitude[found.at(5.0)].round(4))
     [0.1355]
     """
-    unit = unit_load(beam, load)
+    unit = unit_load(blade, load)
     if load.varied is None:
         raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
     if load.leaves_plane:
@@ -189,45 +196,45 @@ def forced_response(
         highest = rotation_speed(float(asked[-1]))
     else:
         highest, asked = rotation_speed(omega), _ascending("frequencies", frequencies)
-        warn_if_rpm(beam, highest)
-    steady, tail = _planar_or_spatial(beam, highest, theory, functions, gauge)
-    if not any(beam.unit.damping):
-        _require_no_resonance(beam, None if by_speed else highest, theory, asked)
+        warn_if_rpm(blade, highest)
+    steady, tail = _planar_or_spatial(blade, highest, theory, functions, gauge)
+    if not any(blade.unit.damping):
+        _require_no_resonance(blade, None if by_speed else highest, theory, asked)
     # Deflections are told from the steady state, at changing speeds from that at rest.
     system = DrivenBlade(replace(steady, rate=0.0) if by_speed else steady, unit)
     least = whole_number("harmonics", harmonics)
     try:
-        found = response_curve(system, asked / beam.frequency_scale, _LARGEST, least, tail)
+        found = response_curve(system, asked / blade.frequency_scale, _LARGEST, least, tail)
     except NoOrbitError as failed:
         response, last = None, f" at {asked[0]:g} rad/s"
         if failed.last:
-            response = _packed(beam, load, theory, failed.last)
+            response = _packed(blade, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
-        free = lives_in_space(beam) and not beam.damping.bending
+        free = lives_in_space(blade) and not blade.damping.bending
         more = "damping of the bending, without which torsion has none," if free else "more damping"
         remedy = failed.remedy or f"take {more} or a smaller load"
         raise ResponseNotReachedError(
             f"the response to {load} was not found{last}: {failed}; {remedy}", response
         ) from None
-    return _packed(beam, load, theory, found)
+    return _packed(blade, load, theory, found)
 
 
 def _planar_or_spatial(
-    beam: AnyBlade, omega: float, theory: Theory, functions: int, gauge: str
+    blade: Blade, omega: float, theory: Theory, functions: int, gauge: str
 ) -> tuple[SteadyBeam | SpaceBlade, float]:
     """Return the blade in steady rotation at ω [rad/s], and the tail of `Care`."""
     require_gauge(gauge)
-    if not lives_in_space(beam):
+    if not lives_in_space(blade):
         if gauge == "flap":
             raise ValueError(
                 "this blade stays in its plane under the load, and gauge is 'flap': leave it out"
             )
-        model = resolved_model(beam, 1, theory, functions)
-        return steady_rotation(beam, omega, model), 1.0
+        model = resolved_model(blade, 1, theory, functions)
+        return steady_rotation(blade, omega, model), 1.0
     functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
-    in_space = space_continuum(beam, theory, functions // 2)
-    steady = replace(space_rotation(beam, omega, in_space), direction=DIRECTIONS[gauge])
+    in_space = space_continuum(blade, theory, functions // 2)
+    steady = replace(space_rotation(blade, omega, in_space), direction=DIRECTIONS[gauge])
     return steady, in_space.functions.blade.tail
 
 
@@ -242,7 +249,7 @@ def _ascending(name: str, values: Any) -> FloatArray:
 
 
 def _require_no_resonance(
-    beam: AnyBlade, omega: float | None, theory: Theory, asked: FloatArray
+    blade: Blade, omega: float | None, theory: Theory, asked: FloatArray
 ) -> None:
     """Refuse frequencies that include a mode's, or speeds at which a mode meets a multiple."""
     no_end, remedy = (
@@ -251,7 +258,7 @@ def _require_no_resonance(
     )
     if omega is None:
         slow, fast = (
-            math.floor(driven_modes(beam, w, theory=theory).frequencies[0] / w)
+            math.floor(driven_modes(blade, w, theory=theory).frequencies[0] / w)
             for w in asked[[0, -1]].tolist()
         )
         if slow > fast:
@@ -259,7 +266,7 @@ def _require_no_resonance(
                 f"{no_end} the first mode meets {slow} times the speed in between: {remedy}"
             )
         return
-    modes = driven_modes(beam, omega, 3, theory=theory)
+    modes = driven_modes(blade, omega, 3, theory=theory)
     for name, frequency in zip(modes.names, modes.frequencies, strict=True):
         if asked[0] <= frequency <= asked[-1]:
             raise ValueError(
@@ -268,14 +275,14 @@ def _require_no_resonance(
             )
 
 
-def _packed(beam: AnyBlade, load: Load, theory: Theory, found: list[Marked]) -> ForcedResponse:
+def _packed(blade: Blade, load: Load, theory: Theory, found: list[Marked]) -> ForcedResponse:
     orbits, marks = zip(*found, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
     return ForcedResponse(
-        **ForcedResponse.common_fields(beam, theory, orbits),
+        **ForcedResponse.common_fields(blade, theory, orbits),
         load=load,
-        omega=beam.frequency_scale * np.array([o.system.speed(o.frequency) for o in orbits]),
+        omega=blade.frequency_scale * np.array([o.system.speed(o.frequency) for o in orbits]),
         harmonics=np.array(harmonics),
         residual=np.array([orbit.residual for orbit in orbits]),
         marks=marks,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import undamped
+from ...blade_checks import undamped
 from ...input_checks import finite_array, finite_number
 from ...loads import Load
 from ...plotting import axes_or_new, draw_response
@@ -117,7 +117,7 @@ class ForcedResponse(Branch):
                 f"{self.load.called} goes around with the speed, and each speed has its own "
                 "backbone: take periodic_orbits at one of them"
             )
-        blade, omega = undamped(self.beam), float(self.omega[0])
+        blade, omega = undamped(self.blade), float(self.omega[0])
         mode = f"{self.gauge} 1"
         if not self.nondimensional[0].system.model.in_space:
             # Set steeply, a blade in its plane of bending has modes of flap.

@@ -12,16 +12,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray, few_at_once
-from ...beam import AnyBlade, warn_if_rpm
+from ...blade import Blade
+from ...blade_checks import warn_if_rpm
 from ...input_checks import finite_number, points_of_beam, positive, times_from_rest
 from ...loads import Load, loads_in_time, rippled
 from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.state import SectionLoads, in_newtons
-from ..beam.steady import blade_continuum
-from ..space.modes import flap_shape
-from ..space.steady import lives_in_space, require_bent, rotating_blade, space_continuum
+from ..continuum.planar_rotation import blade_continuum
+from ..continuum.rotation import lives_in_space, require_bent, rotating_blade, space_continuum
+from ..continuum.state import SectionLoads, in_newtons
+from ..linear.space_modes import flap_shape
 from .transient import drive, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -65,7 +66,7 @@ class SpinUpResponse:
         Steps of order 15 and functions for θ, or each curvature, of the solution returned.
     """
 
-    beam: AnyBlade
+    blade: Blade
     spin_up: SpeedChange
     loads: tuple[Load, ...]
     theory: Theory
@@ -84,9 +85,9 @@ class SpinUpResponse:
 
     def section_loads(self, x: ArrayLike) -> SectionLoads:
         """Return the sections at `x` [m], and force and moment in them, over time."""
-        at = points_of_beam("x", x, self.beam.length)
-        driven_at = drive(self.beam, rippled(self.spin_up, self.loads), self.loads, self._model)
-        model, setting = self._model, self.beam.setting_angle
+        at = points_of_beam("x", x, self.blade.length)
+        driven_at = drive(self.blade, rippled(self.spin_up, self.loads), self.loads, self._model)
+        model, setting = self._model, self.blade.setting_angle
         parts = [
             model.standing(self._state[0, few], at, setting)
             + model.section_loads(at, *self._state[:, few], driven_at(self.time[few]))
@@ -94,7 +95,7 @@ class SpinUpResponse:
         ]
         place, section, force, moment = map(np.concatenate, zip(*parts, strict=True))
         standing, loads = (place, section), (force, moment)
-        return in_newtons(self.beam, at, standing, loads, model.trapeze)
+        return in_newtons(self.blade, at, standing, loads, model.trapeze)
 
     @property
     def lag(self) -> FloatArray:
@@ -109,7 +110,7 @@ class SpinUpResponse:
     @property
     def from_axis(self) -> FloatArray:
         """Places of the tip from the axis of rotation in the inertial frame [m], (times, 3)."""
-        blade = self.beam.blade
+        blade = self.blade
         c, s = math.cos(blade.line.precone), math.sin(blade.line.precone)
         along = c * (self.tip[:, 0] + blade.hub_radius) - s * self.tip[:, 2]
         up = s * self.tip[:, 0] + c * self.tip[:, 2]
@@ -120,7 +121,7 @@ class SpinUpResponse:
 
 @one_thread
 def spin_up_response(
-    beam: AnyBlade,
+    blade: Blade,
     spin_up: SpeedChange,
     times: float | ArrayLike,
     *,
@@ -138,7 +139,7 @@ def spin_up_response(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     spin_up : SpinUp, FourierRamp or SpeedTable
         Before it the beam is straight, and stretched as the speed at t = 0 has it.
     times : array_like
@@ -153,7 +154,7 @@ def spin_up_response(
         What acts from t = 0 on: gravity, forces and ripples, each with its frequency.
     kick : float
         Speed of the tip out of the plane at t = 0 [m/s], of a planar blade that is still straight:
-        its points move as `analytic.exact.beam.state.flap_of_kick` has it.
+        its points move as `analytic.exact.continuum.state.flap_of_kick` has it.
     bent : float
         Deflection of the tip out of the plane over L, from which a planar blade starts at rest. Its
         curvature is that of the first flap mode at rest, which excites no other wave.
@@ -177,37 +178,37 @@ def spin_up_response(
     time, tolerance = _checked(times, tolerance)
     require_ramp(spin_up)
     highest = spin_up.fastest
-    warn_if_rpm(beam, highest)
+    warn_if_rpm(blade, highest)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
-    along = points_of_beam("points", points, beam.length)
+    along = points_of_beam("points", points, blade.length)
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
     kick, bent = finite_number("kick", kick, "m/s"), require_bent("bent", bent)
-    if (kick or bent) and not beam.is_planar:
+    if (kick or bent) and not blade.is_planar:
         raise ValueError(
             "kick and bent move a straight blade out of its plane, and this one, from stations or "
             "with a twist, precone, prebend, sweep, kink or offset, leaves it by itself: leave "
             "them out"
         )
-    space = lives_in_space(beam, loads) or bool(kick or bent)
+    space = lives_in_space(blade, loads) or bool(kick or bent)
     coarser, error, size = None, math.inf, 0.0
     fewest = math.ceil(_A_DIGIT * digits)
     # The kinks of a table leave an algebraic tail.
-    more = fewest // 2 if beam.unit.cells.size > _MANY_CELLS else _MORE_FUNCTIONS
+    more = fewest // 2 if blade.unit.cells.size > _MANY_CELLS else _MORE_FUNCTIONS
     for level in range(_REFINEMENTS):
-        functions = fewest + max(more, beam.unit.panel_count) * level
+        functions = fewest + max(more, blade.unit.panel_count) * level
         model: Any = (
-            space_continuum(beam, theory, functions) if space
-            else blade_continuum(beam, theory, functions, functions // 2)
+            space_continuum(blade, theory, functions) if space
+            else blade_continuum(blade, theory, functions, functions // 2)
         )  # fmt: skip
-        rotating_blade(beam, highest, model)  # refuses a speed that tears the blade
-        corners, counts = _steps(beam, spin_up, float(time[-1]), digits, level)
+        rotating_blade(blade, highest, model)  # refuses a speed that tears the blade
+        corners, counts = _steps(blade, spin_up, float(time[-1]), digits, level)
         grid = grid_of(corners, counts)
-        q = rotating_blade(beam, spin_up.start, model).equilibrium
+        q = rotating_blade(blade, spin_up.start, model).equilibrium
         if bent:
             q = q + bent * flap_shape(model)
-        q_dot = model.struck(kick / (beam.length * beam.frequency_scale)) if kick else 0.0
-        finer = integrated(beam, rotation, loads, model, grid, time, along, q, q_dot)
+        q_dot = model.struck(kick / (blade.length * blade.frequency_scale)) if kick else 0.0
+        finer = integrated(blade, rotation, loads, model, grid, time, along, q, q_dot)
         if finer is None:
             coarser = None
             continue
@@ -217,16 +218,16 @@ def spin_up_response(
             error = max(float(np.abs(change).max()) for change in changes) / (size or 1.0)
             if error <= tolerance:
                 return SpinUpResponse(
-                    beam=beam,
+                    blade=blade,
                     spin_up=spin_up,
                     loads=loads,
                     theory=theory,
                     time=time,
-                    points=beam.length * along,
-                    q=beam.length * finer.q,
-                    q_dot=beam.length * beam.frequency_scale * finer.q_dot,
-                    tip=beam.length * finer.tip,
-                    axis=beam.length * finer.axis,
+                    points=blade.length * along,
+                    q=blade.length * finer.q,
+                    q_dot=blade.length * blade.frequency_scale * finer.q_dot,
+                    tip=blade.length * finer.tip,
+                    axis=blade.length * finer.axis,
                     twist=finer.twist,
                     error=error,
                     steps=grid.size - 1,
@@ -266,15 +267,15 @@ def _what_to_try(error: float, size: float, end: float) -> str:
 
 
 def _steps(
-    beam: AnyBlade, spin_up: SpeedChange, end: float, digits: float, level: int
+    blade: Blade, spin_up: SpeedChange, end: float, digits: float, level: int
 ) -> tuple[list[float], list[int]]:
     """Return the corners of the motion [s] and the steps between them.
 
     A corner is the end of the ramp, where Eq. 1 has a kink, as others may.
     """
-    rate = spin_up.fastest / beam.frequency_scale
+    rate = spin_up.fastest / blade.frequency_scale
     first = float(np.interp(digits, (6.0, 8.0), _STEPS)) / _SHORTER**level
-    longest = first * min(1.0, 10.0 / rate if rate else 1.0) / beam.frequency_scale
+    longest = first * min(1.0, 10.0 / rate if rate else 1.0) / blade.frequency_scale
     corners = [0.0, min(spin_up.ramp_time, end)]
     if end > spin_up.ramp_time:
         corners.append(end)

@@ -15,13 +15,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...arrays import FloatArray, few_at_once
-from ...beam import AnyBlade, require_blade
+from ...blade import Blade
+from ...blade_checks import require_blade
 from ...loads import Load, require_load
 from ...methods.collocation import OWN_TANGENT, TANGENT_BEFORE, radau
 from ...motion import Rotation
-from ..beam.continuum import Continuum
-from ..beam.state import Driven
-from ..space.continuum import SpaceContinuum
+from ..continuum.planar import Continuum
+from ..continuum.space import SpaceContinuum
+from ..continuum.state import Driven
 
 _STAGES = 8
 _CREDIT, _MOST_CREDIT = 3, 10  # failures, before a tangent of the steps before is no longer tried
@@ -49,12 +50,12 @@ class BladeMotion(NamedTuple):
     state: FloatArray
 
 
-def unit_load(beam: AnyBlade, load: Load) -> Load:
+def unit_load(blade: Blade, load: Load) -> Load:
     """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0)."""
-    require_blade(beam)
+    require_blade(blade)
     require_load(load)
     return load.in_units(
-        beam.length, beam.mass_per_length * beam.length, 1.0 / beam.frequency_scale
+        blade.length, blade.mass_per_length * blade.length, 1.0 / blade.frequency_scale
     )
 
 
@@ -72,11 +73,11 @@ def pushes(
 
 
 def drive(
-    beam: AnyBlade, rotation: Rotation, loads: Sequence[Load], model: Continuum | SpaceContinuum
+    blade: Blade, rotation: Rotation, loads: Sequence[Load], model: Continuum | SpaceContinuum
 ) -> Callable[[FloatArray], Driven]:
     """Return what gives w, ẇ and the push of the loads at times (stages,) [s]."""
-    per_second = beam.frequency_scale
-    acting = [(unit_load(beam, load), load.frequency or 0.0) for load in loads]
+    per_second = blade.frequency_scale
+    acting = [(unit_load(blade, load), load.frequency or 0.0) for load in loads]
 
     def at(times: FloatArray) -> Driven:
         phases = [(load, frequency * times) for load, frequency in acting]
@@ -90,7 +91,7 @@ def drive(
 
 
 def integrated(
-    beam: AnyBlade,
+    blade: Blade,
     rotation: Rotation,
     loads: Sequence[Load],
     model: Continuum | SpaceContinuum,
@@ -105,8 +106,8 @@ def integrated(
     A step on which it does is halved first, as often as it takes. It starts in the state `q` (n,)
     at the `rates`.
     """
-    method, per_second = radau(_STAGES), beam.frequency_scale
-    driven_at = drive(beam, rotation, loads, model)
+    method, per_second = radau(_STAGES), blade.frequency_scale
+    driven_at = drive(blade, rotation, loads, model)
     q_dot = rates + np.zeros(model.size)
     acceleration = np.zeros((_STAGES, model.size))
     state = np.repeat(np.stack((q, q_dot, 0.0 * q))[:, None], time.size, axis=1)
@@ -153,7 +154,7 @@ def integrated(
             state[:, inside] = positions, velocities, method.values(at) @ acceleration
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    at, setting = np.append(points, 1.0), beam.setting_angle
+    at, setting = np.append(points, 1.0), blade.setting_angle
     parts = [
         (*model.deflection(q, q_dot), model.tip_turn(q), model.places(q, at, setting))
         for q, q_dot, _ in (state[:, few] for few in few_at_once(time.size))

@@ -6,15 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_undamped, warn_if_rpm
+from ...blade import Blade
+from ...blade_checks import require_undamped, warn_if_rpm
 from ...input_checks import peak_deflection, rotation_speed, whole_number
 from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.steady import resolved_model
+from ..continuum.planar_rotation import resolved_model
+from ..continuum.rotation import lives_in_space, space_continuum
 from ..linear.modes import mode_name
-from ..space.modes import DIRECTIONS
-from ..space.steady import lives_in_space, space_continuum
+from ..linear.space_modes import DIRECTIONS
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
 from .leaving import LeavingBranch, leaving_branch
@@ -126,7 +127,7 @@ class Backbone(ModePath):
 
 
 def backbone(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     mode: str | int = "lag 1",
     *,
@@ -137,7 +138,7 @@ def backbone(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
         Without damping.
     omega : float
         Rotation speed ω [rad/s].
@@ -166,27 +167,29 @@ def backbone(
     λ_ω = 0.01967
     """
     omega = rotation_speed(omega)
-    warn_if_rpm(beam, omega)
-    require_undamped(beam, _NO_FREE_ORBITS, planar=False)
-    name = mode_name(beam, omega, mode, theory)
+    warn_if_rpm(blade, omega)
+    require_undamped(blade, _NO_FREE_ORBITS, planar=False)
+    name = mode_name(blade, omega, mode, theory)
     family, number = name.split()
     if family not in DIRECTIONS:
         raise ValueError(
             f"the amplitude of orbits is how far the tip moves across, and mode is {name!r}: take "
             "a mode of lag or flap"
         )
-    out_of_plane = family == "flap" and beam.blade.section.knows_space
-    if lives_in_space(beam) or out_of_plane:
-        in_space = space_continuum(beam, theory, max(functions // 2, 2 * int(number) + 2))
+    out_of_plane = family == "flap" and blade.section.knows_space
+    if lives_in_space(blade) or out_of_plane:
+        in_space = space_continuum(blade, theory, max(functions // 2, 2 * int(number) + 2))
         care = Care(tail=in_space.functions.blade.tail)
-        return Backbone(beam=beam, omega=omega, mode=name, theory=theory, model=in_space, care=care)
-    require_undamped(beam, _NO_FREE_ORBITS)
-    model = resolved_model(beam, int(number), theory, functions)
-    return Backbone(beam=beam, omega=omega, mode=name, theory=theory, model=model)
+        return Backbone(
+            blade=blade, omega=omega, mode=name, theory=theory, model=in_space, care=care
+        )
+    require_undamped(blade, _NO_FREE_ORBITS)
+    model = resolved_model(blade, int(number), theory, functions)
+    return Backbone(blade=blade, omega=omega, mode=name, theory=theory, model=model)
 
 
 def periodic_orbits(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     amplitudes: float | Sequence[float] | FloatArray,
     mode: str | int = "lag 1",
@@ -231,12 +234,12 @@ def periodic_orbits(
     >>> print(f"ω_NL = {found.omega_n:.5f} (1 - {found.lambda_omega:.4f} a²) rad/s as a → 0")
     ω_NL = 3.73040 (1 - 0.0197 a²) rad/s as a → 0
     """
-    of = backbone(beam, omega, mode, theory=theory, functions=functions)
+    of = backbone(blade, omega, mode, theory=theory, functions=functions)
     return of.orbits(amplitudes)
 
 
 def backbone_curve(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     up_to: float = 0.6,
     mode: str | int = "lag 1",
@@ -278,4 +281,4 @@ def backbone_curve(
     >>> round(float(curve.frequency(0.3)), 6), round(curve.lambda_omega, 6)
     (3.723567, 0.019669)
     """
-    return backbone(beam, omega, mode, theory=theory, functions=functions).curve(up_to)
+    return backbone(blade, omega, mode, theory=theory, functions=functions).curve(up_to)

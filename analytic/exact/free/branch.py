@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, require_out_of_plane
+from ...blade import Blade
+from ...blade_checks import require_out_of_plane
 from ...input_checks import (
     finite_number,
     finite_values,
@@ -24,9 +25,9 @@ from ...methods.orbit import Orbit
 from ...parts import Damping
 from ...theory import Theory
 from ...threads import one_thread
-from ..beam.state import BeamState, SectionLoads, in_newtons
-from ..beam.steady import state_of
-from ..plane.growth import GrowthOutOfPlane, growth_about
+from ..continuum.planar_rotation import state_of
+from ..continuum.state import BeamState, SectionLoads, in_newtons
+from ..stability.growth import GrowthOutOfPlane, growth_about
 
 _SAMPLES = 4096  # of a period, which find its ends to 3e-7 of a swing
 
@@ -54,7 +55,7 @@ class OrbitSet:
     _tolerance: ClassVar[float] = 1e-6
     _confirms: ClassVar[bool] = True  # `stable`, as `out_of_plane`
 
-    beam: AnyBlade
+    blade: Blade
     theory: Theory
     omega: Any  # rotation speed [rad/s], of a response (orbits,)
     mode: str = ""  # from which free orbits grow
@@ -63,14 +64,12 @@ class OrbitSet:
     nondimensional: tuple[Orbit[Any], ...] = field(repr=False)  # in time t √(EI/mL³)
 
     @staticmethod
-    def common_fields(
-        beam: AnyBlade, theory: Theory, orbits: Sequence[Orbit[Any]]
-    ) -> dict[str, Any]:
+    def common_fields(blade: Blade, theory: Theory, orbits: Sequence[Orbit[Any]]) -> dict[str, Any]:
         """Return the attributes that all sets of orbits of a blade have."""
         return {
-            "beam": beam,
+            "beam": blade,
             "theory": theory,
-            "frequency": beam.frequency_scale * np.array([orbit.frequency for orbit in orbits]),
+            "frequency": blade.frequency_scale * np.array([orbit.frequency for orbit in orbits]),
             "amplitude": np.array([orbit.amplitude for orbit in orbits]),
             "nondimensional": tuple(orbits),
         }
@@ -98,7 +97,7 @@ class OrbitSet:
         """
         orbit = self._orbit(i)
         (q,), (q_dot,), _ = orbit.coordinates(np.array([finite_number("phase", phase, "rad")]))
-        return state_of(self.beam, orbit.system.model, q, q_dot, x)
+        return state_of(self.blade, orbit.system.model, q, q_dot, x)
 
     def axis(self, i: int, x: ArrayLike, phase: ArrayLike) -> FloatArray:
         """Return the places of the material points `x` [m] of orbit `i`, (phases, points, 3).
@@ -106,26 +105,26 @@ class OrbitSet:
         At the phases [rad], from the clamp [m]: along it, in the direction of rotation (lag) and
         normal to both (flap). The frame turns with the clamp.
         """
-        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
+        orbit, at = self._orbit(i), points_of_beam("x", x, self.blade.length)
         q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        places = orbit.system.model.places(q, at, self.beam.setting_angle)
-        return np.asarray(self.beam.length * places)
+        places = orbit.system.model.places(q, at, self.blade.setting_angle)
+        return np.asarray(self.blade.length * places)
 
     def tip(self, i: int, phase: ArrayLike) -> FloatArray:
         """Return the tip's places [m] at the phases [rad], as `axis`, (phases, 3)."""
-        return np.asarray(self.axis(i, self.beam.length, phase)[:, 0])
+        return np.asarray(self.axis(i, self.blade.length, phase)[:, 0])
 
     def section_loads(self, i: int, x: ArrayLike, phase: ArrayLike) -> SectionLoads:
         """Return the sections at `x` [m] of orbit `i` at phases [rad], force and moment in them.
 
         The first dimension of all is that of the phases.
         """
-        orbit, at = self._orbit(i), points_of_beam("x", x, self.beam.length)
+        orbit, at = self._orbit(i), points_of_beam("x", x, self.blade.length)
         phases = finite_values("phase", phase, "rad")
         state = (*orbit.coordinates(phases), *orbit.drive(phases))
-        standing = orbit.system.model.standing(state[0], at, self.beam.setting_angle)
+        standing = orbit.system.model.standing(state[0], at, self.blade.setting_angle)
         loads = orbit.system.section_loads(at, *state)
-        return in_newtons(self.beam, at, standing, loads, orbit.system.model.trapeze)
+        return in_newtons(self.blade, at, standing, loads, orbit.system.model.trapeze)
 
     @cached_property
     def _stability(self) -> tuple[Multipliers, ...]:
@@ -169,7 +168,7 @@ class OrbitSet:
         """Reason why nothing is known out of the plane, "" if it is."""
         if not self._in_space:
             try:
-                require_out_of_plane(self.beam, self.theory)
+                require_out_of_plane(self.blade, self.theory)
             except ValueError as unknown:
                 return str(unknown)
         return ""
@@ -227,7 +226,7 @@ class OrbitSet:
                 "these orbits are in space and have no plane to leave: `stable` is about all "
                 "directions"
             )
-        blade = self.beam if blade_damping is None else self.beam.with_damping(blade_damping)
+        blade = self.blade if blade_damping is None else self.blade.with_damping(blade_damping)
         require_out_of_plane(blade, self.theory)
         ratio = not_negative("damping", damping)
         return GrowthOutOfPlane(
@@ -263,7 +262,7 @@ class OrbitSet:
         for orbit in self.nondimensional:
             count, model = 8 * orbit.harmonics, orbit.system.model
             q, _, _ = orbit.coordinates(2.0 * np.pi * np.arange(count) / count)
-            place = model.places(q, np.ones(1), self.beam.setting_angle)[:, 0]
+            place = model.places(q, np.ones(1), self.blade.setting_angle)[:, 0]
             series = np.fft.rfft(np.column_stack((place[:, 1:], model.tip_turn(q))), axis=0)
             found.append(np.fft.irfft(series, _SAMPLES, axis=0) * _SAMPLES / count)
         return found

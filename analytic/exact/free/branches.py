@@ -14,7 +14,7 @@ from ...methods.arclength import corrected
 from ...methods.continuation import Care, refined
 from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import At, Marked, OrbitCurve
-from ..beam.steady import BeamOrbit
+from ..continuum.planar_rotation import BeamOrbit
 from .branch import Branch
 from .internal_resonance import Resonance, frequency_at, pinned, resonances_along
 from .path import ModePath
@@ -74,7 +74,7 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
         end = _followed(main[-2], main[-1], lambda orbit: False, up_to=up_to, points=_END_POINTS)
     if end is not None and not _folds(end):
         main, end = [*main, *(orbit for orbit, _ in end[1:])], None
-    per_second = of.beam.frequency_scale
+    per_second = of.blade.frequency_scale
     met = []
     for one in resonances_along(of, main):
         near, place = pinned(of.path.at, main, one)
@@ -85,7 +85,7 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
     pieces = [[(orbit, "") for orbit in main], *filter(None, [*tongues, end])]
     orbits, marks = zip(*(marked for piece in pieces for marked in piece), strict=True)
     return BackboneBranch(
-        **BackboneBranch.common_fields(of.beam, of.theory, orbits),
+        **BackboneBranch.common_fields(of.blade, of.theory, orbits),
         omega=of.omega,
         mode=of.mode,
         marks=marks,

@@ -15,14 +15,14 @@ from numpy.polynomial import Chebyshev, Polynomial
 from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade
+from ...blade import Blade
 from ...input_checks import finite_array
 from ...methods.continuation import MOST_FUNCTIONS, Care
 from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
 from ...theory import Theory
 from ...warning import warn
-from ..beam.steady import BeamOrbit
+from ..continuum.planar_rotation import BeamOrbit
 from .internal_resonance import nearest_resonance
 from .path import AmplitudeNotReachedError, ModePath
 
@@ -53,7 +53,7 @@ class BackboneCurve:
         Series in a² of ω_NL/ω_n and of the first harmonic over the peak.
     """
 
-    beam: AnyBlade
+    blade: Blade
     omega: float
     mode: str
     theory: Theory
@@ -174,7 +174,7 @@ def _fitted(of: ModePath, top: float) -> BackboneCurve:
     )
     apart = np.stack((series(checked**2), first(checked**2)), axis=1) - shown
     return BackboneCurve(
-        beam=of.beam,
+        blade=of.blade,
         omega=of.omega,
         mode=of.mode,
         theory=of.theory,

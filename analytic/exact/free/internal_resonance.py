@@ -17,7 +17,7 @@ from ...arrays import FloatArray
 from ...methods.floquet import floquet_multipliers
 from ...methods.newton import NoOrbitError
 from ...warning import warn
-from ..beam.steady import BeamOrbit
+from ..continuum.planar_rotation import BeamOrbit
 from .path import ModePath
 
 _NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
@@ -102,7 +102,7 @@ def resonances_along(of: ModePath, orbits: Sequence[BeamOrbit]) -> list[Resonanc
                 here, there = (orbit.amplitude for orbit in orbits[i : i + 2])
                 a = float(here + share * (there - here))
                 a = _pole(orbits[max(i - 1, 0) : i + 3], k) or a
-                frequency = frequency_at(orbits, a) * of.beam.frequency_scale
+                frequency = frequency_at(orbits, a) * of.blade.frequency_scale
                 met.append(Resonance(k, j, a, frequency))
     return sorted(met, key=lambda one: one.amplitude)
 
@@ -207,7 +207,7 @@ def warn_of_resonances(of: ModePath, orbits: Iterable[BeamOrbit]) -> None:
             warned.add((k, j))
             warn(
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
-                f"of {of.mode} ({k * orbit.frequency * of.beam.frequency_scale:.4f} rad/s) is "
+                f"of {of.mode} ({k * orbit.frequency * of.blade.frequency_scale:.4f} rad/s) is "
                 f"{100.0 * distance / k:.1f} % from {j} (from Floquet exponents): "
                 f"{of.at_resonance}"
             )

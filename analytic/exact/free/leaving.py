@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import FloatArray
-from ...beam import require_out_of_plane, require_undamped
+from ...blade_checks import require_out_of_plane, require_undamped
 from ...lazily import optimize
 from ...methods.arclength import corrected
 from ...methods.continuation import Care, refined
@@ -32,8 +32,8 @@ from ...methods.orbit import Orbit
 from ...methods.orbit_curve import At, OrbitCurve
 from ...plotting import axes_or_new, draw_response
 from ...settled import settled
-from ..beam.steady import BeamOrbit
-from ..space.steady import SpaceBlade, space_continuum, space_rotation
+from ..continuum.planar_rotation import BeamOrbit
+from ..continuum.rotation import SpaceBlade, space_continuum, space_rotation
 from .branch import Branch, SpecialPoint
 from .path import ModePath
 
@@ -209,10 +209,10 @@ def leaving_branch(
     of: ModePath, low: float, high: float, periods: int, points: int
 ) -> LeavingBranch:
     """Return the branch that leaves the planar orbits, as `Backbone.leaving` says."""
-    require_undamped(of.beam, "a damped blade has no free periodic orbits")
-    require_out_of_plane(of.beam, of.theory)
-    model = space_continuum(of.beam, of.theory, of.path.at(high).system.model.bending)
-    flat = space_rotation(of.beam, of.omega, model)
+    require_undamped(of.blade, "a damped blade has no free periodic orbits")
+    require_out_of_plane(of.blade, of.theory)
+    model = space_continuum(of.blade, of.theory, of.path.at(high).system.model.bending)
+    flat = space_rotation(of.blade, of.omega, model)
     systems = [replace(flat, mirror=mirror) for mirror in (False, True)]
 
     def births() -> Iterator[tuple[float, _Leaving]]:
@@ -241,12 +241,12 @@ def leaving_branch(
     birth = leaving.orbit(amplitude)
     orbits, ended = _followed(leaving, birth, points)
     return LeavingBranch(
-        **LeavingBranch.common_fields(of.beam, of.theory, orbits),
+        **LeavingBranch.common_fields(of.blade, of.theory, orbits),
         omega=of.omega,
         mode=of.mode,
         periods=periods,
         mirror=leaving.system.mirror,
-        born=SpecialPoint(periods * birth.frequency * of.beam.frequency_scale, amplitude),
+        born=SpecialPoint(periods * birth.frequency * of.blade.frequency_scale, amplitude),
         born_error=error,
         marks=("",) * len(orbits),
         ended=ended,

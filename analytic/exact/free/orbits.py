@@ -15,7 +15,7 @@ from ...input_checks import finite_array, finite_number, finite_values
 from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
-from ..beam.steady import BeamOrbit
+from ..continuum.planar_rotation import BeamOrbit
 from .branch import OrbitSet
 from .internal_resonance import nearest_resonance, outstanding, warn_of_resonances
 from .path import AmplitudeNotReachedError, ModePath
@@ -203,7 +203,7 @@ def _packed(of: ModePath, orbits: list[BeamOrbit]) -> Orbits:
     softening, error = of.softening()
     count = max(orbit.harmonics for orbit in orbits)
     return Orbits(
-        **Orbits.common_fields(of.beam, of.theory, orbits),
+        **Orbits.common_fields(of.blade, of.theory, orbits),
         omega=of.omega,
         mode=of.mode,
         omega_n=of.omega_n,

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade
+from ...blade import Blade
 from ...methods.continuation import (
     MOST_FUNCTIONS,
     THOROUGH,
@@ -21,10 +21,10 @@ from ...methods.harmonic_balance import LastTangent, solve
 from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.steady import SteadyBeam, solve_modes
+from ..continuum.planar_rotation import SteadyBeam, solve_modes
+from ..continuum.rotation import rotating_blade
 from ..linear.modes import names_in_plane
-from ..space.modes import orbit_modes
-from ..space.steady import rotating_blade
+from ..linear.space_modes import orbit_modes
 
 _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
 
@@ -51,7 +51,7 @@ def place_of(mode: str, names: Sequence[str]) -> int:
 class ModePath:
     """Free orbits out of one mode, computed as far as they are needed; base of `Backbone`."""
 
-    beam: AnyBlade
+    blade: Blade
     omega: float
     mode: str = "lag 1"
     theory: Theory = BERNOULLI_EULER
@@ -73,7 +73,7 @@ class ModePath:
     @property
     def omega_n(self) -> float:
         """Linear frequency ω_n [rad/s]."""
-        return float(self.modes[self.place]) * self.beam.frequency_scale
+        return float(self.modes[self.place]) * self.blade.frequency_scale
 
     @property
     def modes(self) -> FloatArray:
@@ -100,7 +100,7 @@ class ModePath:
         if self.model.in_space:
             return orbit_modes(steady, self.mode.split()[0])
         modes = solve_modes(steady)
-        names = names_in_plane(steady, modes, self.beam.setting_angle)
+        names = names_in_plane(steady, modes, self.blade.setting_angle)
         return steady, modes.frequencies, modes.coordinates, names
 
     def softening(self) -> tuple[float, float]:
@@ -124,7 +124,7 @@ class ModePath:
     @cached_property
     def _begun(self) -> tuple[FloatArray, tuple[str, ...], Path[SteadyBeam]]:
         """The modes and the path, with as many functions as its smallest orbits need."""
-        steady = rotating_blade(self.beam, self.omega, self.model)
+        steady = rotating_blade(self.blade, self.omega, self.model)
         number = int(self.mode.split()[1])
         small, near = 0.02 / number**2, "2 or 3 times its frequency may be that of another mode"
         while True:

@@ -8,14 +8,15 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_out_of_plane, undamped
+from ...blade import Blade
+from ...blade_checks import require_out_of_plane, undamped
 from ...input_checks import not_negative, rotation_speed
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.steady import resolved_model
+from ..continuum.planar_rotation import resolved_model
 from ..linear.modes import mode_name
-from ..plane.growth import GROWTH, STEPS, Growth, grown, settled_functions
+from ..stability.growth import GROWTH, STEPS, Growth, grown, settled_functions
 from .path import ModePath
 
 LEAST_GROWTH = 0.01
@@ -33,7 +34,7 @@ class PlanarOrbits(ModePath):
     damping ratio `damping` of its modes.
     """
 
-    blade: AnyBlade
+    blade: Blade
     damping: float
 
     @property
@@ -60,7 +61,7 @@ class PlanarOrbits(ModePath):
 
 
 def planar_orbits(
-    blade: AnyBlade,
+    blade: Blade,
     omega: float,
     mode: str | int = "lag 1",
     theory: Theory = BERNOULLI_EULER,
@@ -73,14 +74,14 @@ def planar_orbits(
         raise ValueError(f"planar orbits grow out of modes of lag, and mode is {name!r}: 'lag 1'")
     model = resolved_model(free, int(name.split()[1]), theory, _FUNCTIONS)
     return PlanarOrbits(
-        beam=free, omega=omega, mode=name, theory=theory, model=model,
+        blade=free, omega=omega, mode=name, theory=theory, model=model,
         blade=blade, damping=not_negative("damping", damping),
     )  # fmt: skip
 
 
 @one_thread
 def growth_rates(
-    blade: AnyBlade, omega: float, amplitudes: FloatArray, damping: float = 0.0
+    blade: Blade, omega: float, amplitudes: FloatArray, damping: float = 0.0
 ) -> FloatArray:
     """Return the growth rates [1/s] about orbits of the first mode, zero where stable.
 

@@ -6,12 +6,13 @@ import math
 from dataclasses import dataclass
 from itertools import groupby
 
-from ...beam import AnyBlade, require_out_of_plane
+from ...blade import Blade
+from ...blade_checks import require_out_of_plane
 from ...input_checks import peak_deflection, rotation_speed
 from ...methods.newton import NoOrbitError
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..plane.growth import GROWTH, Growth
+from ..stability.growth import GROWTH, Growth
 from .planar_orbits import LEAST_GROWTH, SMALLEST, PlanarOrbits, planar_orbits
 
 LARGEST = 0.6
@@ -70,7 +71,7 @@ class StabilityLimit:
         Whether half as many functions and steps again tell the limit within 1 %.
     """
 
-    blade: AnyBlade
+    blade: Blade
     omega: float
     mode: str
     damping: float
@@ -111,7 +112,7 @@ class StabilityLimit:
 
 @one_thread
 def stability_limit(
-    blade: AnyBlade,
+    blade: Blade,
     omega: float,
     mode: str | int = "lag 1",
     *,

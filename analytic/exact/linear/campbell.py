@@ -15,13 +15,13 @@ from scipy import optimize
 from scipy.interpolate import PchipInterpolator
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade
+from ...blade import Blade
 from ...input_checks import finite_values, require_ascending, rotation_speed, whole_number
 from ...plotting import apart, axes_or_new, cycled, free_place
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..space.modes import Family, LinearModes
 from .modes import linear_modes, modes_on
+from .space_modes import Family, LinearModes
 
 if TYPE_CHECKING:
     from ...plotting import Axes
@@ -59,7 +59,7 @@ class Campbell:
 
     Attributes
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omegas : ndarray (speeds,)
         Rotation speeds [rad/s].
     frequencies : ndarray (speeds, count)
@@ -82,7 +82,7 @@ class Campbell:
     >>> axes = diagram.plot()
     """
 
-    beam: AnyBlade
+    blade: Blade
     omegas: FloatArray
     frequencies: FloatArray
     mac: FloatArray
@@ -99,7 +99,7 @@ class Campbell:
         speeds, frequencies = self.omegas, self.frequencies
         if apart_.any():
             speeds = np.sort(np.concatenate((speeds, even[apart_])))
-            more = _diagram(self.beam, speeds, len(self.names), 0, self._only, self.theory)
+            more = _diagram(self.blade, speeds, len(self.names), 0, self._only, self.theory)
             frequencies = more.frequencies
         drawn = np.union1d(np.linspace(speeds[0], speeds[-1], _DRAWN), speeds)
         # Squares of frequencies are nearly straight over those of the speed.
@@ -155,7 +155,7 @@ class Campbell:
 
 @one_thread
 def campbell(
-    beam: AnyBlade,
+    blade: Blade,
     omegas: ArrayLike,
     count: int = 3,
     orders: int = 6,
@@ -167,7 +167,7 @@ def campbell(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omegas : array_like
         Rotation speeds [rad/s], ascending.
     count : int
@@ -199,11 +199,11 @@ def campbell(
         rotation_speed(float(speed), "omegas")
     require_ascending("omegas", speeds, "rad/s")
     count, orders = whole_number("count", count), whole_number("orders", orders)
-    return _diagram(beam, speeds, count, orders, only, theory)
+    return _diagram(blade, speeds, count, orders, only, theory)
 
 
 def _diagram(
-    beam: AnyBlade,
+    blade: Blade,
     speeds: FloatArray,
     count: int,
     orders: int,
@@ -213,14 +213,14 @@ def _diagram(
     """Return the diagram of so many modes."""
     wanted = count + _SPARE_MODES
     ends = [
-        linear_modes(beam, omega, wanted, only=only, theory=theory, functions=max(20, 2 * wanted))
+        linear_modes(blade, omega, wanted, only=only, theory=theory, functions=max(20, 2 * wanted))
         for omega in {float(speeds[0]), float(speeds[-1])}
     ]
     # A model that resolves the modes at both ends does so between them.
     finest = max(ends, key=lambda modes: modes.model.bending)
 
     def modes_at(omega: float, near: LinearModes | None = None) -> LinearModes:
-        return modes_on(finest.model, finest.beam, omega, wanted, theory, only, near=near)
+        return modes_on(finest.model, finest.blade, omega, wanted, theory, only, near=near)
 
     found: list[LinearModes] = []
     for omega in speeds.tolist():
@@ -239,7 +239,7 @@ def _diagram(
         for column, order, omega in _met(pair, places, orders, modes_at)
     ]
     return Campbell(
-        beam=beam,
+        blade=blade,
         omegas=speeds,
         frequencies=np.array([m.frequencies[c] for m, c in zip(found, columns, strict=True)]),
         mac=np.array(assurances).reshape(-1, count),

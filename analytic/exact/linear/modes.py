@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade, warn_if_rpm
 from ...blade import Blade
+from ...blade_checks import warn_if_rpm
 from ...input_checks import rotation_speed, shown, whole_number
 from ...methods.system import inverse_eigenvalues
 from ...settled import refined, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
-from ..beam.continuum import Continuum
-from ..beam.steady import (
+from ..continuum.planar import Continuum
+from ..continuum.planar_rotation import (
     MOST_FUNCTIONS,
     Modes,
     SteadyBeam,
@@ -24,16 +24,9 @@ from ..beam.steady import (
     solve_modes,
     steady_rotation,
 )
-from ..space.continuum import SpaceContinuum
-from ..space.modes import (
-    FAMILIES,
-    Family,
-    LinearModes,
-    mode_names,
-    space_modes,
-    space_modes_on,
-)
-from ..space.steady import lives_in_space, rotating_blade
+from ..continuum.rotation import lives_in_space, rotating_blade
+from ..continuum.space import SpaceContinuum
+from .space_modes import FAMILIES, Family, LinearModes, mode_names, space_modes, space_modes_on
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
@@ -41,7 +34,7 @@ _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
 
 @one_thread
 def linear_modes(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     count: int = 3,
     *,
@@ -58,7 +51,7 @@ def linear_modes(
 
     Parameters
     ----------
-    beam : Beam or Blade
+    blade : Beam or Blade
     omega : float
         Rotation speed ω [rad/s].
     count : int
@@ -89,17 +82,17 @@ def linear_modes(
     omega = rotation_speed(omega)
     count = whole_number("count", count)
     require_theory(theory)
-    warn_if_rpm(beam, omega)
+    warn_if_rpm(blade, omega)
     require_family(only)
-    section = beam.blade.section
+    section = blade.section
     unknown = section.out_of_plane is None and not section.at_stations
-    if not lives_in_space(beam) and (only in ("lag", "axial") or unknown):
-        return _modes_in_plane(beam, omega, count, theory, functions, only)
-    return space_modes(_known_in_space(beam, only), omega, count, theory, only)
+    if not lives_in_space(blade) and (only in ("lag", "axial") or unknown):
+        return _modes_in_plane(blade, omega, count, theory, functions, only)
+    return space_modes(_known_in_space(blade, only), omega, count, theory, only)
 
 
 def driven_modes(
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     count: int = 1,
     *,
@@ -110,19 +103,19 @@ def driven_modes(
 
     Those of the plane of bending of a planar blade, and all of others.
     """
-    warn_if_rpm(beam, rotation_speed(omega))
-    if lives_in_space(beam):
-        return space_modes(beam, omega, count, theory)
-    return _modes_in_plane(beam, omega, count, theory, functions, None)
+    warn_if_rpm(blade, rotation_speed(omega))
+    if lives_in_space(blade):
+        return space_modes(blade, omega, count, theory)
+    return _modes_in_plane(blade, omega, count, theory, functions, None)
 
 
 def _modes_in_plane(
-    beam: AnyBlade, omega: float, count: int, theory: Theory, functions: int, only: Family | None
+    blade: Blade, omega: float, count: int, theory: Theory, functions: int, only: Family | None
 ) -> LinearModes:
     # Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
-    first = steady_rotation(beam, omega, resolved_model(beam, count, theory, functions))
+    first = steady_rotation(blade, omega, resolved_model(blade, count, theory, functions))
     modes, _, error = settled(
-        lambda steady: modes_on(steady.model, beam, omega, count, theory, only),
+        lambda steady: modes_on(steady.model, blade, omega, count, theory, only),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
         _SETTLED,
         lambda modes: np.log(modes.frequencies),
@@ -138,12 +131,12 @@ def require_family(only: object) -> None:
         raise ValueError(f"only must be one of {', '.join(FAMILIES)}, got {shown(only)}")
 
 
-def _known_in_space(beam: AnyBlade, only: Family | None) -> Blade:
+def _known_in_space(blade: Blade, only: Family | None) -> Blade:
     """Return a blade with its stiffness in torsion; one that is unknown is taken for rigid.
 
     Flap of a planar blade does without it; its torsion is refused.
     """
-    blade = beam.blade
+    blade = blade
     out = blade.section.out_of_plane
     rigid = out is not None and (out.torsion_ratio is None or math.isinf(out.torsion_ratio))
     if only == "torsion" and rigid:
@@ -156,11 +149,11 @@ def _known_in_space(beam: AnyBlade, only: Family | None) -> Blade:
     return blade.with_section_out_of_plane(out.bending_ratio, math.inf)
 
 
-def mode_name(beam: AnyBlade, omega: float, mode: object, theory: Theory) -> str:
+def mode_name(blade: Blade, omega: float, mode: object, theory: Theory) -> str:
     """Return the name of a mode, given by name or by its number in `linear_modes`."""
     if not isinstance(mode, str) or mode.isdecimal():
         number = whole_number("mode", int(mode) if isinstance(mode, str) else mode)
-        return linear_modes(beam, omega, number, theory=theory).names[number - 1]
+        return linear_modes(blade, omega, number, theory=theory).names[number - 1]
     family, _, number_of = mode.partition(" ")
     if family not in FAMILIES or not number_of.isdecimal() or int(number_of) < 1:
         raise ValueError(
@@ -182,7 +175,7 @@ def _phased(steady: SteadyBeam, modes: Modes) -> ComplexArray:
 
 def modes_on(
     model: Continuum | SpaceContinuum,
-    beam: AnyBlade,
+    blade: Blade,
     omega: float,
     count: int,
     theory: Theory,
@@ -195,15 +188,15 @@ def modes_on(
     In space the steady state is sought from that of modes on it at a speed nearby.
     """
     if isinstance(model, SpaceContinuum):
-        return space_modes_on(model, beam, omega, count, only, near=near)
-    steady, setting = steady_rotation(beam, omega, model), beam.setting_angle
+        return space_modes_on(model, blade, omega, count, only, near=near)
+    steady, setting = steady_rotation(blade, omega, model), blade.setting_angle
     solved = solve_modes(steady)
     shapes = _phased(steady, solved)
     modes = LinearModes(
-        beam=beam,
+        blade=blade,
         omega=omega,
         theory=theory,
-        frequencies=solved.frequencies * beam.frequency_scale,
+        frequencies=solved.frequencies * blade.frequency_scale,
         shares=model.shares(steady.equilibrium, shapes, setting),
         error=math.nan,
         model=model,
@@ -216,7 +209,7 @@ def modes_on(
 
 @one_thread
 def damping_ratios(
-    beam: AnyBlade, omega: float, count: int = 3, *, theory: Theory = BERNOULLI_EULER
+    blade: Blade, omega: float, count: int = 3, *, theory: Theory = BERNOULLI_EULER
 ) -> FloatArray:
     """Return the damping ratios ζ of modes, (count,): of a planar blade those in its plane.
 
@@ -243,13 +236,13 @@ def damping_ratios(
     [0.00791 0.00831 0.02347]
     """
     omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
-    modes = driven_modes(beam, omega, count, theory=theory, functions=max(20, 2 * count))
-    steady = rotating_blade(beam, omega, modes.model)
+    modes = driven_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
+    steady = rotating_blade(blade, omega, modes.model)
     at_rest = np.zeros((1, steady.size))
     tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
     inverse = inverse_eigenvalues(tangent.mass[0], tangent.damping[0], tangent.stiffness[0])
     inverse = inverse[inverse.imag < 0.0]
-    size = 1.0 / (np.abs(inverse) * modes.frequencies[:, None] / beam.frequency_scale)
+    size = 1.0 / (np.abs(inverse) * modes.frequencies[:, None] / blade.frequency_scale)
     nearest = np.argmin(np.abs(size - 1.0), axis=1)
     for mode, found in enumerate(nearest):
         if abs(size[mode, found] - 1.0) > _SAME or found in nearest[:mode]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.description import describe
 from analytic.input_checks import shown
 from analytic.unit_blade import UNIFORM
@@ -45,20 +45,20 @@ def formulation(element: str | Formulation) -> Formulation:
     return FORMULATIONS[element]()
 
 
-def require_modeled(beam: AnyBlade, model: Formulation, frame: Frame = "inertial") -> None:
+def require_modeled(blade: Blade, model: Formulation, frame: Frame = "inertial") -> None:
     """Refuse a blade that the formulation does not model, or not in this frame.
 
     The sentence names the property of the blade, and the formulations that take it.
     """
-    model.require_section(beam)
+    model.require_section(blade)
     if frame not in ("inertial", "rotating"):
         raise ValueError(f"unknown frame {frame!r}; known are 'inertial' and 'rotating'")
-    if frame == "inertial" and (setting := model.setting(beam)) != 1.0:
+    if frame == "inertial" and (setting := model.setting(blade)) != 1.0:
         raise ValueError(
             "in the inertial frame the models turn in their plane of bending, and this blade has a "
             f"setting angle with the cosine {setting:.4g}: take frame='rotating'"
         )
-    unit = beam.unit
+    unit = blade.unit
     if unit == UNIFORM:
         return
     if not model.takes_blades:

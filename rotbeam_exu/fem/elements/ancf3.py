@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
@@ -90,19 +90,19 @@ class Ancf3(Sheared, SectionSlopeNodes):
         """No state says how thick its sections are, which the coupled law would need."""
         return self.law != "coupled"
 
-    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
+    def lay(self, mbs: exudyn.MainSystem, blade: Blade, elements: int) -> Chain:
         """Add one body for all `elements`, of equal length, along the x axis, and the masses."""
-        mesh = Mesh(blade=beam, elements=elements, nodes_of_element=3)
+        mesh = Mesh(blade=blade, elements=elements, nodes_of_element=3)
         body = _Row(self, mesh)
         nodes = self.add_nodes(mbs, mesh.positions)
         add_energy_body(mbs, nodes, body.assembly.matrix(_mass(mesh)), body)
         turning = add_point_masses(mbs, nodes, mesh)
         return Chain(nodes=nodes, elastic_energy=body.energy, turning=turning)
 
-    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, blade: Blade, coordinates: FloatArray) -> FloatArray:
         """|r_x| - 1 at the Gauss points of the axis."""
         elements = (coordinates.shape[-2] - 1) // 2
-        row = _Row(self, Mesh(blade=beam, elements=elements))
+        row = _Row(self, Mesh(blade=blade, elements=elements))
         z = row.vectors(coordinates.reshape(*coordinates.shape[:-2], -1))
         strain = np.hypot(z[..., 0], z[..., 1]) - 1.0
         return np.asarray(strain.reshape(*coordinates.shape[:-2], -1))

@@ -8,10 +8,10 @@ from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
+from analytic.blade_checks import require_out_of_plane
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
-from analytic.beam import require_out_of_plane
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items
@@ -32,9 +32,9 @@ class _Cables(Formulation, abstract=True):
     order = 4.0
     takes_blades: ClassVar[bool] = True
 
-    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
+    def lay(self, mbs: exudyn.MainSystem, blade: Blade, elements: int) -> Chain:
         """Add `elements` cables of equal length along the x axis, and the masses at their nodes."""
-        mesh, damping = Mesh(blade=beam, elements=elements), beam.damping
+        mesh, damping = Mesh(blade=blade, elements=elements), blade.damping
         nodes, body = self.add_nodes(mbs, mesh.positions), getattr(items, self.body)
         EI, EA = mesh.sections.bending_stiffness, mesh.sections.axial_stiffness
         bodies = tuple(
@@ -61,7 +61,7 @@ class _Cables(Formulation, abstract=True):
             turning=add_point_masses(mbs, nodes, mesh),
         )
 
-    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, blade: Blade, coordinates: FloatArray) -> FloatArray:
         """|r'| - 1 at the nodes."""
         slopes = coordinates[..., coordinates.shape[-1] // 2 :]
         return np.asarray(np.linalg.norm(slopes, axis=-1) - 1.0)
@@ -104,7 +104,7 @@ class SpaceCable(_Cables, SpaceSlopeNodes):
     new_jacobians: ClassVar[bool] = True  # half the time
     body: ClassVar[str] = "ObjectANCFCable"
 
-    def require_section(self, blade: AnyBlade) -> None:
+    def require_section(self, blade: Blade) -> None:
         """Refuse a section that bends otherwise out of the plane than in it."""
         require_bare(self, blade)
         ratio = require_out_of_plane(blade, torsion=False).bending_ratio

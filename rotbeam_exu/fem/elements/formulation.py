@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+from analytic.blade_checks import require_blade, require_planar
 from numpy.typing import NDArray
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
-from analytic.beam import require_blade, require_planar
 from analytic.description import Described
-from analytic.exact.beam.kinematics import in_plane_of_bending
+from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.input_checks import finite_number, positive
 from analytic.lazily import sparse
 from analytic.motion import Rotation
@@ -136,8 +136,8 @@ class Formulation(Described, abstract=True):
         sheared = self.shear_share is not None
         return Theory(shear=self.shear_share, rotary_inertia=sheared, trapeze=not self.leaves_plane)
 
-    def lay(self, mbs: exudyn.MainSystem, beam: Any, elements: int) -> Chain:
-        """Add nodes and elements for `beam` to `mbs`."""
+    def lay(self, mbs: exudyn.MainSystem, blade: Any, elements: int) -> Chain:
+        """Add nodes and elements for `blade` to `mbs`."""
         raise NotImplementedError
 
     def add_nodes(
@@ -180,34 +180,34 @@ class Formulation(Described, abstract=True):
         """
         raise NotImplementedError
 
-    def axial_strain(self, beam: Any, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, blade: Any, coordinates: FloatArray) -> FloatArray:
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
         raise NotImplementedError
 
-    def divergence_speed(self, beam: Any, elements: int) -> float:
+    def divergence_speed(self, blade: Any, elements: int) -> float:
         """Speed [rad/s] above which the model diverges; infinite where its strains are exact."""
         return math.inf
 
-    def require_section(self, blade: AnyBlade) -> None:
+    def require_section(self, blade: Blade) -> None:
         """Refuse a blade whose line or section the element does not model."""
         require_blade(blade)
-        whole = blade.blade
+        whole = blade
         line, table = whole.line, whole.section.at_stations
         beyond = (*line.kinks, *line.mass_offset, *line.tension_offset, *whole.point_masses)
         exact = "analytic.spin_up_response, or on the command line rotbeam reference"
         remedy = exact if table or any(beyond) else "element='space_exact'"
         require_planar(blade, f"element {self.name!r} is for", remedy)
 
-    def setting(self, blade: AnyBlade) -> float:
+    def setting(self, blade: Blade) -> float:
         """Cosine of the angle between the plane in which J turns and that of rotation."""
         return blade.unit.setting
 
-    def line_frame(self, blade: AnyBlade) -> FloatArray:
+    def line_frame(self, blade: Blade) -> FloatArray:
         """Return the axes of the clamp in columns, (dimensions, dimensions), at the angle zero."""
         return np.eye(self.dimensions)
 
     def add_spin_forces(
-        self, mbs: exudyn.MainSystem, chain: Chain, beam: Any, rotation: Rotation
+        self, mbs: exudyn.MainSystem, chain: Chain, blade: Any, rotation: Rotation
     ) -> None:
         """Add the inertial forces of the rotating frame on coordinates without constant mass."""
 
@@ -261,7 +261,7 @@ class Formulation(Described, abstract=True):
 
     def energy_and_momentum(
         self,
-        beam: Any,
+        blade: Any,
         mass: sparse.csr_array,
         turning: tuple[TurningNode, ...],
         coordinates: FloatArray,
@@ -275,7 +275,7 @@ class Formulation(Described, abstract=True):
         these contain a rotation by c w. Normal to the plane a point moves by s w times its distance
         x along the clamp's line.
         """
-        samples, setting = rate.size, self.setting(beam)
+        samples, setting = rate.size, self.setting(blade)
         v = velocities.reshape(samples, -1)
         along = (coordinates * self.radial).reshape(samples, -1)
         momentum = v @ mass

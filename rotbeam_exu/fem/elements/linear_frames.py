@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 import numpy as np
+from analytic.blade_checks import require_planar
 
 from analytic import Beam
 from analytic.arrays import FloatArray
-from analytic.beam import require_planar
 from analytic.input_checks import whole_number
 from analytic.lazily import linalg, optimize
 
@@ -33,34 +33,34 @@ FloatingFrame = Literal["tangent", "pinned"]
 class _LinearFrames(SlopeNodes, abstract=True):
     """Linear frames; `row` says how a beam is cut into them."""
 
-    def row(self, beam: Beam, elements: int) -> FrameRow:
+    def row(self, blade: Beam, elements: int) -> FrameRow:
         """Return the beam cut into frames."""
         raise NotImplementedError
 
-    def lay(self, mbs: exudyn.MainSystem, beam: Beam, elements: int) -> Chain:
+    def lay(self, mbs: exudyn.MainSystem, blade: Beam, elements: int) -> Chain:
         """Add one body for the whole beam, along the x axis."""
-        row = self.row(beam, elements)
+        row = self.row(blade, elements)
         nodes = self.add_nodes(mbs, row.reference[::4])
         add_energy_body(mbs, nodes, row.mass, row)
         return Chain(nodes=nodes, elastic_energy=row.energy)
 
-    def axial_strain(self, beam: Beam, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, blade: Beam, coordinates: FloatArray) -> FloatArray:
         """∂u_x/∂x in the frames, at their nodes: the strain of the model."""
-        row = self.row(beam, self._elements(coordinates.shape[-2]))
+        row = self.row(blade, self._elements(coordinates.shape[-2]))
         local = row.local(coordinates.reshape(*coordinates.shape[:-2], -1))[0]
         strain = local.reshape(*local.shape[:-1], -1, 4)[..., 2] - 1.0
         return np.asarray(strain.reshape(*coordinates.shape[:-2], -1))
 
-    def divergence_speed(self, beam: Beam, elements: int) -> float:
+    def divergence_speed(self, blade: Beam, elements: int) -> float:
         """Speed [rad/s] at which the rotating steady state loses its stability.
 
         With gyroscopic forces only, the state is stable as long as the stiffness T - ω²M about
         it is positive definite; where its lowest eigenvalue passes zero, one mode diverges. Of one
         tangent frame that is ω0; a fully nonlinear model has no such speed (Sec. 1).
         """
-        require_planar(beam)
-        row = self.row(beam, whole_number("elements", elements))
-        lower = 0.5 * beam.omega_0
+        require_planar(blade)
+        row = self.row(blade, whole_number("elements", elements))
+        lower = 0.5 * blade.omega_0
         while (upper := 1.5 * lower) and row.lowest_eigenvalue(upper) > 0.0:
             lower = upper
         return float(optimize.brentq(row.lowest_eigenvalue, lower, upper, rtol=1e-10))
@@ -89,9 +89,9 @@ class Linear(_LinearFrames):
     name: ClassVar[str] = "linear"
     order = 4.0
 
-    def row(self, beam: Beam, elements: int) -> FrameRow:
+    def row(self, blade: Beam, elements: int) -> FrameRow:
         """Return one frame with `elements` cells."""
-        return FrameRow(beam, 1, elements, "tangent")
+        return FrameRow(blade, 1, elements, "tangent")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,9 +131,9 @@ class Substructures(_LinearFrames):
             raise ValueError(f"unknown frame {self.frame!r}; known are 'tangent' and 'pinned'")
         whole_number("cells", self.cells)
 
-    def row(self, beam: Beam, elements: int) -> FrameRow:
+    def row(self, blade: Beam, elements: int) -> FrameRow:
         """Return `elements` frames."""
-        return FrameRow(beam, elements, self.cells, self.frame)
+        return FrameRow(blade, elements, self.cells, self.frame)
 
     def _elements(self, nodes: int) -> int:
         return (nodes - 1) // self.cells
@@ -142,9 +142,9 @@ class Substructures(_LinearFrames):
 class FrameRow:
     """Energy, forces and tangent of frames in a row, all at once, with mass and steady state."""
 
-    def __init__(self, beam: Beam, frames: int, cells: int, frame: FloatingFrame) -> None:
-        length = beam.length / (frames * cells)
-        mass, stiffness = _cell(beam, length)
+    def __init__(self, blade: Beam, frames: int, cells: int, frame: FloatingFrame) -> None:
+        length = blade.length / (frames * cells)
+        mass, stiffness = _cell(blade, length)
         inside = Assembly(cells, inner=1, per_node=4)
         self.assembly = Assembly(frames, inner=cells, per_node=4)
         self.mass = Assembly(frames * cells, inner=1, per_node=4).matrix(mass)
@@ -247,7 +247,7 @@ def _turned(rotation: FloatArray, vectors: FloatArray) -> FloatArray:
     return np.asarray((pairs @ rotation.swapaxes(1, 2)).reshape(vectors.shape))
 
 
-def _cell(beam: Beam, length: float) -> tuple[FloatArray, FloatArray]:
+def _cell(blade: Beam, length: float) -> tuple[FloatArray, FloatArray]:
     """Mass and linear stiffness matrix (8, 8) of a cubic cell of `length`, exactly integrated."""
     scale = scales(length)
 
@@ -256,7 +256,7 @@ def _cell(beam: Beam, length: float) -> tuple[FloatArray, FloatArray]:
         table = [[(a * b).integ()(1.0) for b in shapes] for a in shapes]
         return np.array(table) * np.outer(scale, scale) * length ** (1 - 2 * order)
 
-    mass = beam.mass_per_length * np.kron(products(0), np.eye(2))
-    axial = beam.axial_stiffness * np.kron(products(1), np.diag([1.0, 0.0]))
-    bending = beam.bending_stiffness * np.kron(products(2), np.diag([0.0, 1.0]))
+    mass = blade.mass_per_length * np.kron(products(0), np.eye(2))
+    axial = blade.axial_stiffness * np.kron(products(1), np.diag([1.0, 0.0]))
+    bending = blade.bending_stiffness * np.kron(products(2), np.diag([0.0, 1.0]))
     return np.asarray(mass, dtype=np.float64), np.asarray(axial + bending, dtype=np.float64)

@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
+from analytic.blade_checks import require_blade
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
-from analytic.beam import require_blade
-from analytic.exact.beam.kinematics import in_plane_of_bending
-from analytic.exact.beam.state import BeamState
+from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
+from analytic.exact.continuum.state import BeamState
 from analytic.lazily import spatial
 
 from ..mesh import shapes
@@ -141,13 +141,13 @@ class FrameNodes(Formulation, abstract=True):
     angles: ClassVar[FloatArray] = np.zeros(7)
     joint: ClassVar[tuple[int, ...]] = (1, 1, 1, 1, 1, 1)
 
-    def setting(self, blade: AnyBlade) -> float:
+    def setting(self, blade: Blade) -> float:
         """All turns about z."""
         return 1.0
 
-    def line_frame(self, blade: AnyBlade) -> FloatArray:
+    def line_frame(self, blade: Blade) -> FloatArray:
         """Tilt the clamp out of the plane of rotation by the precone."""
-        cone = blade.blade.line.precone
+        cone = blade.line.precone
         c, s = math.cos(cone), math.sin(cone)
         return np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
 
@@ -190,7 +190,7 @@ class FrameNodes(Formulation, abstract=True):
         return directors(coordinates[..., 3:])
 
 
-def require_bare(element: Formulation, blade: AnyBlade) -> None:
+def require_bare(element: Formulation, blade: Blade) -> None:
     """Refuse point masses, which Exudyn's elements in space do not have."""
     require_blade(blade)
     if blade.unit.masses:

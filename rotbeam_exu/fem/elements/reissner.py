@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.quadrature import gauss_points
 
@@ -61,11 +61,11 @@ class Exact(Sheared, AngleNodes):
         """Order in the mesh: of quadratic functions and two points twice that of linear and one."""
         return 2.0 * (self.nodes - 1)
 
-    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
+    def lay(self, mbs: exudyn.MainSystem, blade: Blade, elements: int) -> Chain:
         """Add `elements` beams of equal length along the x axis."""
-        mesh = Mesh(blade=beam, elements=elements, nodes_of_element=self.nodes)
+        mesh = Mesh(blade=blade, elements=elements, nodes_of_element=self.nodes)
         nodes = self.add_nodes(mbs, mesh.positions)
-        inner, at, damping = self.nodes - 1, mesh.sections, beam.damping
+        inner, at, damping = self.nodes - 1, mesh.sections, blade.damping
         EI, EA = at.bending_stiffness, at.axial_stiffness
         bodies = tuple(
             mbs.AddObject(
@@ -88,24 +88,24 @@ class Exact(Sheared, AngleNodes):
                 items.ObjectRigidBody2D(nodeNumber=nodes[node], mass=one.mass, inertia=one.inertia)
             )
         viscous = damping.bending or damping.axial
-        taken = _Row(self, beam, elements).dissipation if viscous else None
+        taken = _Row(self, blade, elements).dissipation if viscous else None
         return Chain(nodes=nodes, bodies=bodies, dissipation=taken)
 
-    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, blade: Blade, coordinates: FloatArray) -> FloatArray:
         """r'·d - 1 at the Gauss points."""
         elements = (coordinates.shape[-2] - 1) // (self.nodes - 1)
-        return np.asarray(_Row(self, beam, elements).strains(coordinates)[0])
+        return np.asarray(_Row(self, blade, elements).strains(coordinates)[0])
 
 
 class _Row:
     """Strains and dissipation of a row of elements at all Gauss points, (..., points)."""
 
-    def __init__(self, element: Exact, beam: AnyBlade, elements: int) -> None:
+    def __init__(self, element: Exact, blade: Blade, elements: int) -> None:
         self._inner = inner = element.nodes - 1
-        self._mesh = Mesh(blade=beam, elements=elements)
+        self._mesh = Mesh(blade=blade, elements=elements)
         points = gauss_points(inner)[0]
         self._values = lagrange(points, inner)
-        self._slopes = lagrange(points, inner, 1) * elements / beam.length
+        self._slopes = lagrange(points, inner, 1) * elements / blade.length
 
     def strains(self, coordinates: FloatArray) -> FloatArray:
         """Return axial and bending strain, (2, ..., points)."""

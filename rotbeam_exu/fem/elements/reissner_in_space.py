@@ -9,9 +9,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from analytic import AnyBlade
+from analytic import Blade
 from analytic.arrays import FloatArray
-from analytic.exact.space.unit import space_unit
+from analytic.exact.continuum.unit import space_unit
 from analytic.lazily import spatial
 from analytic.motion import Rotation
 from analytic.quadrature import gauss_points
@@ -66,10 +66,10 @@ class SpaceExact(Sheared, FrameNodes):
         """Seven frequencies of a blade are decided with the last one."""
         return 16, 32, 64, 128
 
-    def require_section(self, blade: AnyBlade) -> None:
+    def require_section(self, blade: Blade) -> None:
         """Refuse a table of stations, kinks, centers off the line, and an unknown torsion."""
         require_bare(self, blade)
-        section, line = blade.blade.section, blade.blade.line
+        section, line = blade.section, blade.line
         if section.at_stations or line.kinks:
             raise ValueError(
                 "element 'space_exact' takes sections by their ratios on a smooth line, and this "
@@ -92,9 +92,9 @@ class SpaceExact(Sheared, FrameNodes):
                 "analytic.spin_up_response"
             )
 
-    def lay(self, mbs: exudyn.MainSystem, beam: AnyBlade, elements: int) -> Chain:
+    def lay(self, mbs: exudyn.MainSystem, blade: Blade, elements: int) -> Chain:
         """Add `elements` beams of equal length on the unloaded line."""
-        row = _Row(self, beam, elements)
+        row = _Row(self, blade, elements)
         nodes = tuple(
             mbs.AddNode(items.NodeRigidBodyEP(referenceCoordinates=one)) for one in row.reference
         )
@@ -111,10 +111,10 @@ class SpaceExact(Sheared, FrameNodes):
         return Chain(nodes=nodes, bodies=tuple(bodies))
 
     def add_spin_forces(
-        self, mbs: exudyn.MainSystem, chain: Chain, beam: AnyBlade, rotation: Rotation
+        self, mbs: exudyn.MainSystem, chain: Chain, blade: Blade, rotation: Rotation
     ) -> None:
         """Add the inertial forces of the rotating frame on the Euler parameters."""
-        row = _Row(self, beam, len(chain.nodes) - 1)
+        row = _Row(self, blade, len(chain.nodes) - 1)
         add = row.add
 
         def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:
@@ -136,19 +136,19 @@ class SpaceExact(Sheared, FrameNodes):
 
         add_force(mbs, chain.nodes, force=force, derivatives=derivatives)
 
-    def axial_strain(self, beam: AnyBlade, coordinates: FloatArray) -> FloatArray:
+    def axial_strain(self, blade: Blade, coordinates: FloatArray) -> FloatArray:
         """Strain along the normal of the sections, of each element."""
-        return _Row(self, beam, coordinates.shape[-2] - 1).stretch(coordinates)
+        return _Row(self, blade, coordinates.shape[-2] - 1).stretch(coordinates)
 
     def energy_and_momentum(
-        self, beam: AnyBlade, mass: Any, turning: Any, coordinates: FloatArray,
+        self, blade: Blade, mass: Any, turning: Any, coordinates: FloatArray,
         velocities: FloatArray, rate: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
         """Return both, of sections whose turning rates are linear over the elements."""
-        row, states = _Row(self, beam, coordinates.shape[-2] - 1), (coordinates, velocities)
+        row, states = _Row(self, blade, coordinates.shape[-2] - 1), (coordinates, velocities)
         _, spin, inertia = row.turning(*(row.add.gather(e.reshape(len(e), -1)) for e in states))
         moment = (inertia @ spin[..., None])[..., 0]
-        kinetic, momentum = super().energy_and_momentum(beam, mass, turning, *states, rate)
+        kinetic, momentum = super().energy_and_momentum(blade, mass, turning, *states, rate)
         kinetic += 0.25 * row.length * np.sum(spin * moment, axis=(1, 2, 3))
         return kinetic, momentum + 0.5 * row.length * np.sum(moment[..., 2], axis=(1, 2))
 
@@ -169,7 +169,7 @@ class _Row:
     (elements, 3) is ρI_p, ρI out of the plane and ρI in it [kg m].
     """
 
-    def __init__(self, element: SpaceExact, blade: AnyBlade, elements: int) -> None:
+    def __init__(self, element: SpaceExact, blade: Blade, elements: int) -> None:
         mesh, unit = Mesh(blade=blade, elements=elements), space_unit(blade)
         self.length, frame = mesh.length, element.line_frame(blade)
         place, sections = unit.unloaded(np.linspace(0.0, 1.0, elements + 1))

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from analytic.arrays import ComplexArray, FloatArray
-from analytic.exact.beam.continuum import Continuum
-from analytic.exact.beam.state import Driven
+from analytic.exact.continuum.planar import Continuum
+from analytic.exact.continuum.state import Driven
 from analytic.exact.driven.transient import grid_of, integrated
 
 from ..cases import Case

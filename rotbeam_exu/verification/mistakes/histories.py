@@ -173,7 +173,7 @@ def _inertial(seen: _Seen) -> _Suspects:
     found = spin_up_response(
         case.blade, rotation, seen.time, tolerance=0.1 * SMALL, loads=case.loads
     )
-    reach = case.blade.blade.hub_radius + case.blade.length
+    reach = case.blade.hub_radius + case.blade.length
     off = seen.q - found.from_axis[:, 1]
     moved = off + reach * np.sin(rotation.angle(seen.time))
     said = "q is taken along an axis that does not turn: turn it by -θ(t), q = y cos θ - x sin θ"

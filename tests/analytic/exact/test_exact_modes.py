@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import Beam, Theory, linear_modes
-from analytic.exact.beam.steady import continuum, resolved_model
+from analytic.exact.continuum.planar_rotation import continuum, resolved_model
 from tests.beams import unit_beam
 
 # In-plane; Wright et al. 1982, Hodges and Rutkowski 1981 and Banerjee 2000 give the squares
@@ -66,7 +66,7 @@ def test_a_speed_that_tears_the_beam_is_refused(beam):
 def test_a_mode_beyond_the_resolved_ones_is_refused(beam, monkeypatch):
     with pytest.raises(ValueError, match="mode 11 is beyond the 10 that 20 functions resolve"):
         linear_modes(beam, 1.0, 11)
-    monkeypatch.setattr("analytic.exact.beam.steady.MOST_FUNCTIONS", 20)
+    monkeypatch.setattr("analytic.exact.continuum.planar_rotation.MOST_FUNCTIONS", 20)
     assert resolved_model(beam, 10, Theory(), 20).size
     for mode, functions in ((11, 20), (1, 21)):
         with pytest.raises(ValueError, match="at most 20 functions are taken, .* 10 modes"):

@@ -61,7 +61,10 @@ def test_its_multipliers_and_those_in_the_plane_are_all_of_the_blade_in_space(
             lambda found: replace(found, theory=Theory(shear=0.3)).out_of_plane(),
             "take a theory without shear",
         ),
-        (lambda found: replace(found, beam=BEAM).out_of_plane(), "is unknown: give its section by"),
+        (
+            lambda found: replace(found, blade=BEAM).out_of_plane(),
+            "is unknown: give its section by",
+        ),
     ],
 )
 def test_bad_input_is_one_sentence(ask, sentence):

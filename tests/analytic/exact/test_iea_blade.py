@@ -8,9 +8,9 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicSpline
 
 from analytic import Theory, linear_modes
-from analytic.exact.space.modes import space_modes_on
-from analytic.exact.space.steady import space_continuum
-from analytic.exact.space.unit import space_unit
+from analytic.exact.continuum.rotation import space_continuum
+from analytic.exact.continuum.unit import space_unit
+from analytic.exact.linear.space_modes import space_modes_on
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import finite_elements
 

@@ -15,7 +15,7 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
-from analytic.exact.beam.state import flap_of_kick, kicked_state
+from analytic.exact.continuum.state import flap_of_kick, kicked_state
 
 TUBE = Beam.reference().with_shape(Tube())
 STRIP = Beam.reference().with_section_out_of_plane(0.5, 0.6).with_twist(0.5)

@@ -61,7 +61,7 @@ def after_ten_periods(orbit, steps):
 
 
 def is_a_motion(found, i, steps, error):
-    expected = found.tip(i, 0.0)[0] / found.beam.length
+    expected = found.tip(i, 0.0)[0] / found.blade.length
     return after_ten_periods(found.nondimensional[i], steps) == pytest.approx(expected, abs=error)
 
 

@@ -8,7 +8,7 @@ import pytest
 from analytic import Beam, Rectangle, Theory
 from analytic.exact.free.planar_orbits import planar_orbits
 from analytic.exact.free.stability_limit import _limit
-from analytic.exact.plane.growth import GROWTH, Growth
+from analytic.exact.stability.growth import GROWTH, Growth
 from analytic.methods.newton import NoOrbitError
 
 

@@ -37,7 +37,7 @@ def power(states, omega, nu, load, ripple=0.0):
 @pytest.mark.parametrize("name", ["rippled", pytest.param("loaded", marks=pytest.mark.slow)])
 def test_damping_takes_what_the_load_gives(name, request):
     response = request.getfixturevalue(name)
-    omega, load, d = response.omega[0], response.load, response.beam.damping.external
+    omega, load, d = response.omega[0], response.load, response.blade.damping.external
     i = int(np.argmax(response.amplitude))
     ripple = load.amplitude if isinstance(load, SpeedRipple) else 0.0
     for point in (0, i // 2, i):

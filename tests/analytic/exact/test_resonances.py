@@ -55,7 +55,7 @@ def of(modes=MODES, place=0):
     beam = SimpleNamespace(frequency_scale=3.0)
     names = [f"lag {k}" for k in range(1, len(modes) + 1)]
     return SimpleNamespace(
-        modes=modes, mode=names[place], place=place, names=names, beam=beam, at_resonance=""
+        modes=modes, mode=names[place], place=place, names=names, blade=beam, at_resonance=""
     )
 
 

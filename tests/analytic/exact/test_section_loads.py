@@ -18,8 +18,8 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
-from analytic.exact.beam.state import Driven
-from analytic.exact.beam.steady import SteadyBeam, blade_continuum
+from analytic.exact.continuum.planar_rotation import SteadyBeam, blade_continuum
+from analytic.exact.continuum.state import Driven
 from analytic.exact.driven.transient import pushes, unit_load
 from analytic.quadrature import gauss_points
 from analytic.theory import BERNOULLI_EULER
@@ -35,7 +35,7 @@ X = np.array([0.0, 0.3, 0.6, 1.0])
 def test_at_rest_under_gravity_the_moment_is_the_weight_times_its_lever(beam, taper):
     """The weight hangs along the blade and across it; mass from 1 to 1 - t along it, a tip mass."""
     g, angle, tip = 9.81, 0.7, 0.3
-    blade = beam.with_taper(taper, 0.0) if taper else beam.blade
+    blade = beam.with_taper(taper, 0.0) if taper else beam
     blade = blade.with_tip_mass(tip)
     m0, length = blade.mass_per_length, blade.length
     model = blade_continuum(blade, BERNOULLI_EULER, 8, 4)

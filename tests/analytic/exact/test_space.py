@@ -19,11 +19,11 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from analytic.exact.beam.steady import SteadyBeam, blade_continuum, steady_rotation
+from analytic.exact.continuum.planar_rotation import SteadyBeam, blade_continuum, steady_rotation
+from analytic.exact.continuum.rotation import SpaceBlade, space_continuum
 from analytic.exact.driven.forced import DrivenBlade
-from analytic.exact.plane.growth import STEPS, grown
-from analytic.exact.plane.out_of_plane import OutOfPlaneMotion, Space, with_points_for
-from analytic.exact.space.steady import SpaceBlade, space_continuum
+from analytic.exact.stability.growth import STEPS, grown
+from analytic.exact.stability.out_of_plane import OutOfPlaneMotion, Space, with_points_for
 from analytic.methods.floquet import flow
 from analytic.methods.system import Tangent
 from analytic.parts import UNDAMPED

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from analytic.exact.beam.continuum import Continuum
-from analytic.exact.beam.state import Driven
-from analytic.exact.space.basis import StrainFunctions
-from analytic.exact.space.continuum import SpaceContinuum
-from analytic.exact.space.steady import SpaceBlade
-from analytic.exact.space.unit import SpaceUnit
-from analytic.exact.space.vectors import Frames
+from analytic.exact.continuum.basis import StrainFunctions
+from analytic.exact.continuum.planar import Continuum
+from analytic.exact.continuum.rotation import SpaceBlade
+from analytic.exact.continuum.space import SpaceContinuum
+from analytic.exact.continuum.state import Driven
+from analytic.exact.continuum.unit import SpaceUnit
+from analytic.exact.continuum.vectors import Frames
 from analytic.parts import Line
 from analytic.theory import Theory
 

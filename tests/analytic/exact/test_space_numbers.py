@@ -23,7 +23,7 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
-from analytic.exact.space.continuum import SpaceContinuum
+from analytic.exact.continuum.space import SpaceContinuum
 from tests.beams import unit_beam
 
 PLAIN = Theory(extension=False, trapeze=False)

@@ -15,8 +15,8 @@ from analytic import (
     periodic_orbits,
     steady_state,
 )
-from analytic.exact.space.modes import orbit_modes
-from analytic.exact.space.steady import space_continuum, space_rotation
+from analytic.exact.continuum.rotation import space_continuum, space_rotation
+from analytic.exact.linear.space_modes import orbit_modes
 from tests.beams import told, unit_beam
 
 SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)

@@ -18,9 +18,9 @@ from analytic import (
     steady_state,
 )
 from analytic.description import describe, from_description
-from analytic.exact.beam.state import Driven
-from analytic.exact.space.modes import space_modes_on
-from analytic.exact.space.steady import space_continuum
+from analytic.exact.continuum.rotation import space_continuum
+from analytic.exact.continuum.state import Driven
+from analytic.exact.linear.space_modes import space_modes_on
 from tests.beams import finite_elements, told, unit_beam
 
 MU, R, G = 1e-4, 1.0 / 16.0, 0.08

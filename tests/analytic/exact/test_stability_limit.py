@@ -21,10 +21,10 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.beam.steady import blade_continuum, steady_rotation
+from analytic.exact.continuum.planar_rotation import blade_continuum, steady_rotation
 from analytic.exact.free.planar_orbits import growth_rates, planar_orbits
-from analytic.exact.plane.growth import GrowthOutOfPlane, _steady_modes
-from analytic.exact.plane.out_of_plane import Space, with_points_for
+from analytic.exact.stability.growth import GrowthOutOfPlane, _steady_modes
+from analytic.exact.stability.out_of_plane import Space, with_points_for
 from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER
 from tests.beams import UNIT, told
@@ -59,9 +59,7 @@ LIMITS = {
     ],
 )
 def test_where_rectangles_leave_the_plane(beam, omega, ratio, first, steps):
-    found = periodic_orbits(
-        beam.blade.with_shape(Rectangle(ratio=ratio)), omega, steps
-    ).out_of_plane()
+    found = periodic_orbits(beam.with_shape(Rectangle(ratio=ratio)), omega, steps).out_of_plane()
     unstable = found.amplitude[~found.stable]
     assert (unstable.min() if unstable.size else None) == first
 
@@ -84,7 +82,7 @@ def test_the_pages_state_these_limits():
 @pytest.mark.filterwarnings("ignore:internal resonance")
 @pytest.mark.parametrize(("omega", "ratio"), LIMITS)
 def test_the_limits_of_the_table(beam, omega, ratio):
-    found = stability_limit(beam.blade.with_shape(Rectangle(ratio=ratio)), omega)
+    found = stability_limit(beam.with_shape(Rectangle(ratio=ratio)), omega)
     # Printed to four digits; bisected to 1e-4 of itself.
     assert found.amplitude == pytest.approx(LIMITS[omega, ratio], rel=2e-3)
     assert found.converged
@@ -172,7 +170,7 @@ LIMIT_OF_SOFT_FLAP = 0.39117
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:internal resonance")
 def test_a_rectangle_of_three_to_one_has_a_tongue_of_the_sum(beam):
-    found = stability_limit(beam.blade.with_shape(Rectangle(ratio=3.0)), 2.0, largest=0.36).tongues
+    found = stability_limit(beam.with_shape(Rectangle(ratio=3.0)), 2.0, largest=0.36).tongues
     (tongue,) = [one for one in found if one.kind == "sum resonance"]
     assert (tongue.low, tongue.high) == pytest.approx((0.2955, 0.3532), rel=2e-4)
 
@@ -206,7 +204,7 @@ def test_a_map_has_no_number_where_there_is_no_orbit(beam):
 
 
 def test_limits_over_shape_are_infinite_where_nothing_grows(beam):
-    found = stability_limit(beam.blade.with_shape(Rectangle(ratio=1.0)), 6.0, largest=0.03)
+    found = stability_limit(beam.with_shape(Rectangle(ratio=1.0)), 6.0, largest=0.03)
     assert math.isinf(found.amplitude)
     assert "stay in their plane, up to a = 0.03" in str(found)
 

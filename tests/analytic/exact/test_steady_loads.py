@@ -9,8 +9,8 @@ import pytest
 from scipy.interpolate import make_interp_spline
 
 from analytic import Beam, Theory, steady_state
-from analytic.exact.space.continuum import SpaceContinuum
-from analytic.exact.space.steady import space_continuum, space_rotation
+from analytic.exact.continuum.rotation import space_continuum, space_rotation
+from analytic.exact.continuum.space import SpaceContinuum
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import unit_beam
 

@@ -9,8 +9,8 @@ from scipy.linalg import block_diag, expm
 from scipy.optimize import brentq
 
 from analytic import Beam, Theory, linear_modes
-from analytic.exact.beam.state import Driven
-from analytic.exact.beam.steady import blade_continuum
+from analytic.exact.continuum.planar_rotation import blade_continuum
+from analytic.exact.continuum.state import Driven
 from tests.beams import SHARE, unit_beam
 
 STUBBY = unit_beam(1e-3)

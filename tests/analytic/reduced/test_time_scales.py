@@ -19,7 +19,7 @@ def test_response_leaves_a_residual_of_fifth_order(fitted_order, omega):
     psi = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
     amplitudes, residuals = np.array([0.02, 0.04, 0.08]), []
     for a in amplitudes:
-        w, b = model.frequency(a) / model.beam.frequency_scale, model.lambda_x * a**3
+        w, b = model.frequency(a) / model.blade.frequency_scale, model.lambda_x * a**3
         x = model.response(psi / model.frequency(a), a)
         np.testing.assert_allclose(x, a * np.cos(psi) - b * np.cos(3 * psi), atol=1e-15)
         v = w * (-a * np.sin(psi) + 3 * b * np.sin(3 * psi))

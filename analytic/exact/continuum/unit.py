@@ -19,7 +19,7 @@ from ...unit_blade import UnitBlade
 from .vectors import Frames, about_axis, turned
 
 if TYPE_CHECKING:
-    from ...beam import AnyBlade
+    from ...blade import Blade
 
 _POINTS = 40  # on each panel, for the unloaded line
 
@@ -231,9 +231,9 @@ def trapeze_of(soft: FloatArray) -> FloatArray:
     return np.asarray(np.trace(bends, axis1=1, axis2=2) * along)
 
 
-def space_unit(beam: AnyBlade) -> SpaceUnit:
+def space_unit(blade: Blade) -> SpaceUnit:
     """Return a blade in space without dimensions; its section out of the plane is known."""
-    blade = beam.blade
+    blade = blade
     unit, out, length = blade.unit, blade.section.out_of_plane, blade.length
     common: dict[str, Any] = {field.name: getattr(unit, field.name) for field in fields(unit)}
     common |= {

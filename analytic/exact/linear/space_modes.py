@@ -10,13 +10,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade
+from ...blade import Blade
 from ...input_checks import points_of_beam
 from ...methods.system import reciprocal_modes
 from ...settled import settled
 from ...theory import Theory
-from .continuum import SpaceContinuum
-from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
+from ..continuum.rotation import (
+    FUNCTIONS,
+    SpaceBlade,
+    finer_blades,
+    space_continuum,
+    space_rotation,
+)
+from ..continuum.space import SpaceContinuum
 
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 _ONLY_TURNS = 1e-6  # displacement of the tip over the length, times its turn
@@ -77,7 +83,7 @@ class LinearModes:
     [0.389 1.   ]
     """
 
-    beam: AnyBlade
+    blade: Blade
     omega: float
     theory: Theory
     frequencies: FloatArray
@@ -101,7 +107,7 @@ class LinearModes:
         where the tip only turns, to 1e-6 of its turn times the length, the turn is. Motion is the
         real part times exp(iΩt): the phase says which part is ahead.
         """
-        length = self.beam.length
+        length = self.blade.length
         at = np.append(points_of_beam("x", x, length), 1.0)
         moved, turn = self.model.moved(self._steady, self.coordinates, at, self.setting)
         parts = np.concatenate((length * moved, turn[None]))
@@ -129,7 +135,7 @@ class LinearModes:
 
 
 def space_modes(
-    blade: AnyBlade, omega: float, count: int, theory: Theory, only: Family | None = None
+    blade: Blade, omega: float, count: int, theory: Theory, only: Family | None = None
 ) -> LinearModes:
     """Return the lowest modes, of all or of one family, on more functions until they settle."""
     model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
@@ -146,7 +152,7 @@ def space_modes(
 
 def space_modes_on(
     model: SpaceContinuum,
-    blade: AnyBlade,
+    blade: Blade,
     omega: float,
     count: int,
     only: Family | None = None,
@@ -163,10 +169,10 @@ def space_modes_on(
     return _modes_of(blade, omega, steady).lowest(count, only)
 
 
-def _modes_of(blade: AnyBlade, omega: float, steady: SpaceBlade) -> LinearModes:
+def _modes_of(blade: Blade, omega: float, steady: SpaceBlade) -> LinearModes:
     frequencies, shapes = _solved(steady)
     return LinearModes(
-        beam=blade,
+        blade=blade,
         omega=omega,
         theory=steady.model.functions.theory,
         frequencies=frequencies * blade.frequency_scale,

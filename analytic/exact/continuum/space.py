@@ -32,9 +32,9 @@ import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
 from ...methods.system import Tangent
-from ..beam.state import Driven, flap_of_kick
 from .basis import StrainFunctions
 from .changes import Changes, Rates, State
+from .state import Driven, flap_of_kick
 from .vectors import Frames, cross, turned, turned_back
 
 

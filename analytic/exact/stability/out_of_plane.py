@@ -27,14 +27,15 @@ from typing import Any
 import numpy as np
 
 from ...arrays import FloatArray, evaluated
-from ...beam import AnyBlade, require_out_of_plane
+from ...blade import Blade
+from ...blade_checks import require_out_of_plane
 from ...lazily import linalg
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
 from ...shape_functions import ShapeFunctions, shape_functions
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.continuum import Continuum
-from ..beam.steady import SteadyBeam
+from ..continuum.planar import Continuum
+from ..continuum.planar_rotation import SteadyBeam
 
 
 @lru_cache(maxsize=32)
@@ -50,7 +51,7 @@ class Space:
     The coordinates of w come first.
     """
 
-    def __init__(self, blade: AnyBlade, functions: int, theory: Theory = BERNOULLI_EULER) -> None:
+    def __init__(self, blade: Blade, functions: int, theory: Theory = BERNOULLI_EULER) -> None:
         section = require_out_of_plane(blade)
         self.blade, self.unit, self.section, self.theory = blade, blade.unit, section, theory
         self.shapes = shape_functions(self.unit, functions)

@@ -12,16 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, require_blade, require_steady_state
+from ...blade import Blade
+from ...blade_checks import require_blade, require_steady_state
 from ...input_checks import finite_number
 from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
 from ...theory import Theory, require_theory
-from ..beam.state import Driven
-from ..beam.steady import AtConstantRate, require_shear, steady_rotation
 from .basis import StrainFunctions
-from .continuum import SpaceContinuum
+from .planar_rotation import AtConstantRate, require_shear, steady_rotation
+from .space import SpaceContinuum
+from .state import Driven
 from .unit import space_unit
 
 FUNCTIONS = 12
@@ -35,19 +36,19 @@ _CHANGES, _EXACT = 12, 1e-12  # of Newton's method, and the last over the size o
 _CONTRACTION = 0.25
 
 
-def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceContinuum:
+def space_continuum(blade: Blade, theory: Theory, functions: int) -> SpaceContinuum:
     """Return the discretization by at least so many functions for each curvature."""
-    require_section(beam)
-    require_shear(beam, require_theory(theory))
+    require_section(blade)
+    require_shear(blade, require_theory(theory))
     if theory.engesser:
         raise ValueError("Engesser's law of shear is known in the plane: leave engesser out")
-    unit = space_unit(beam)
+    unit = space_unit(blade)
     a_panel = max(4, math.ceil(functions / unit.panel_count))
     return SpaceContinuum(
         StrainFunctions(
             blade=unit,
             theory=theory,
-            slenderness=beam.slenderness,
+            slenderness=blade.slenderness,
             bending=a_panel,
             torsion=a_panel,
             axial=max(4, 5 * a_panel // 8),
@@ -55,13 +56,13 @@ def space_continuum(beam: AnyBlade, theory: Theory, functions: int) -> SpaceCont
     )
 
 
-def lives_in_space(beam: AnyBlade, loads: Sequence[Load] = ()) -> bool:
+def lives_in_space(blade: Blade, loads: Sequence[Load] = ()) -> bool:
     """Whether flap, lag and torsion of a blade under loads go together.
 
     A setting angle mixes them where the stiffness out of the plane and in torsion is known.
     """
-    require_blade(beam)
-    blade = beam.blade
+    require_blade(blade)
+    blade = blade
     turned = blade.setting_angle != 0.0 and blade.section.knows_space
     return turned or not blade.is_planar or any(load.leaves_plane for load in loads)
 
@@ -76,9 +77,9 @@ def require_bent(name: str, bent: float) -> float:
     return float(bent)
 
 
-def require_section(beam: AnyBlade) -> None:
+def require_section(blade: Blade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
-    if not beam.blade.section.knows_space:
+    if not blade.section.knows_space:
         raise ValueError(
             "twist, precone, prebend, sweep, offsets, a setting angle, a kick or tilted gravity "
             "bend a blade out of its plane and twist it: give its stiffness there by "
@@ -231,13 +232,13 @@ def finer_blades(first: SpaceBlade) -> Iterator[SpaceBlade]:
     return refined(first, SpaceBlade.refined, lambda one: one.functions > most)
 
 
-def space_rotation(beam: AnyBlade, omega: float, model: SpaceContinuum) -> SpaceBlade:
+def space_rotation(blade: Blade, omega: float, model: SpaceContinuum) -> SpaceBlade:
     """Return the blade in steady rotation at ω [rad/s], refusing a speed that tears it."""
     if model.functions.theory.extension:
-        require_steady_state(beam, omega)
-    return SpaceBlade(model, omega / beam.frequency_scale)
+        require_steady_state(blade, omega)
+    return SpaceBlade(model, omega / blade.frequency_scale)
 
 
-def rotating_blade(beam: AnyBlade, omega: float, model: Any) -> Any:
+def rotating_blade(blade: Blade, omega: float, model: Any) -> Any:
     """Return the blade in steady rotation at ω [rad/s], in its plane or in space as the model."""
-    return (space_rotation if model.in_space else steady_rotation)(beam, omega, model)
+    return (space_rotation if model.in_space else steady_rotation)(blade, omega, model)

@@ -8,13 +8,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
-from ...beam import AnyBlade, warn_if_rpm
+from ...blade import Blade
+from ...blade_checks import warn_if_rpm
 from ...input_checks import finite_array, finite_number, points_of_beam, rotation_speed
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..beam.state import SectionLoads, in_newtons
-from .steady import FUNCTIONS, SpaceBlade, finer_blades, space_continuum, space_rotation
+from ..continuum.rotation import (
+    FUNCTIONS,
+    SpaceBlade,
+    finer_blades,
+    space_continuum,
+    space_rotation,
+)
+from ..continuum.state import SectionLoads, in_newtons
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +40,7 @@ class SteadyState:
         Its change over the length by the last refinement.
     """
 
-    blade: AnyBlade
+    blade: Blade
     omega: float
     theory: Theory
     force: tuple[float, ...]
@@ -73,7 +80,7 @@ def _vector(name: str, value: ArrayLike, unit: str) -> tuple[float, ...]:
 
 @one_thread
 def steady_state(
-    blade: AnyBlade,
+    blade: Blade,
     omega: float,
     *,
     force: ArrayLike = (0.0, 0.0, 0.0),

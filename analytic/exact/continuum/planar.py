@@ -33,7 +33,7 @@ import numpy as np
 from ...arrays import ComplexArray, FloatArray, evaluated
 from ...methods.system import Tangent
 from ...unit_blade import UNIFORM, UnitBlade
-from .kinematics import Kinematics
+from .planar_kinematics import Kinematics
 from .state import Driven
 
 

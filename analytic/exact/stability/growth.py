@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
-from ...beam import AnyBlade
+from ...blade import Blade
 from ...methods.floquet import flow, normal_modes, reversible_monodromy
 from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
-from ..beam.steady import SteadyBeam
+from ..continuum.planar_rotation import SteadyBeam
 from .out_of_plane import OutOfPlaneMotion, Space, with_points_for
 
 GROWTH = 1e-5
@@ -56,7 +56,7 @@ class Growth(NamedTuple):
 
 
 def grown_and_checked(
-    blade: AnyBlade, orbit: Orbit[Any], theory: Theory, ratio: float = 0.0, confirm: bool = True
+    blade: Blade, orbit: Orbit[Any], theory: Theory, ratio: float = 0.0, confirm: bool = True
 ) -> tuple[Growth, bool]:
     """Return what grows, and whether half as many functions and steps tell the same.
 
@@ -83,7 +83,7 @@ def grown_and_checked(
 
 
 def grown(
-    blade: AnyBlade,
+    blade: Blade,
     orbit: Orbit[Any],
     functions: int,
     steps: int,
@@ -124,7 +124,7 @@ def grown(
 _space = lru_cache(maxsize=32)(Space)
 
 
-def settled_functions(blade: AnyBlade, planar: SteadyBeam, theory: Theory) -> int:
+def settled_functions(blade: Blade, planar: SteadyBeam, theory: Theory) -> int:
     """Return how many functions settle the flap modes, which rotation bends in a layer."""
 
     def flap(space: Space) -> FloatArray:
@@ -215,7 +215,7 @@ class GrowthOutOfPlane:
     [ True False] ('', 'divergence') [  0.  120.8]
     """
 
-    blade: AnyBlade
+    blade: Blade
     omega: Any
     mode: str
     theory: Theory
@@ -245,7 +245,7 @@ class GrowthOutOfPlane:
 
 
 def growth_about(
-    orbits: Sequence[Orbit[Any]], blade: AnyBlade, theory: Theory, ratio: float, confirm: bool
+    orbits: Sequence[Orbit[Any]], blade: Blade, theory: Theory, ratio: float, confirm: bool
 ) -> dict[str, Any]:
     """Return the numbers of `GrowthOutOfPlane` about planar orbits of a blade."""
     growths = [grown_and_checked(blade, orbit, theory, ratio, confirm) for orbit in orbits]

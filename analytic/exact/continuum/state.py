@@ -10,7 +10,7 @@ import numpy as np
 from ...arrays import FloatArray
 
 if TYPE_CHECKING:
-    from ...beam import AnyBlade
+    from ...blade import Blade
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,7 +100,7 @@ class SectionLoads:
      [-220.73  -21.15]]
     """
 
-    blade: AnyBlade
+    blade: Blade
     stations: FloatArray
     place: FloatArray = field(repr=False)
     section: FloatArray = field(repr=False)
@@ -115,21 +115,21 @@ class SectionLoads:
 
 
 def in_newtons(
-    beam: AnyBlade,
+    blade: Blade,
     x: FloatArray,
     standing: tuple[FloatArray, FloatArray],
     loads: tuple[FloatArray, FloatArray],
     trapeze: bool,
 ) -> SectionLoads:
     """Return places, sections and loads without dimensions at `x` over L as a value."""
-    unit = beam.bending_stiffness / beam.length
+    unit = blade.bending_stiffness / blade.length
     (place, section), (force, moment) = standing, loads
     return SectionLoads(
-        blade=beam,
-        stations=beam.length * x,
-        place=beam.length * place,
+        blade=blade,
+        stations=blade.length * x,
+        place=blade.length * place,
         section=section,
-        force=unit / beam.length * force,
+        force=unit / blade.length * force,
         moment=unit * moment,
         trapeze=trapeze,
     )

@@ -10,14 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray, evaluated, in_units
-from ...beam import AnyBlade, require_planar, require_steady_state
+from ...blade import Blade
+from ...blade_checks import require_planar, require_steady_state
 from ...input_checks import points_of_beam, whole_number
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent, reciprocal_modes
 from ...shape_functions import shape_functions
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...unit_blade import UnitBlade
-from .continuum import Continuum
+from .planar import Continuum
 from .state import BeamState, Driven
 
 MOST_FUNCTIONS = 256
@@ -28,16 +29,16 @@ continuum = lru_cache(maxsize=32)(Continuum)
 """The discretization, built once for each set of arguments."""
 
 
-def blade_continuum(beam: AnyBlade, theory: Theory, bending: int, axial: int) -> Continuum:
+def blade_continuum(blade: Blade, theory: Theory, bending: int, axial: int) -> Continuum:
     """Return the discretization by at least so many functions, as many on every panel."""
-    require_planar(beam)
-    unit = _unit(beam, require_theory(theory))
-    slenderness, axial = (beam.slenderness, axial) if theory.extension else (0.0, 1)
+    require_planar(blade)
+    unit = _unit(blade, require_theory(theory))
+    slenderness, axial = (blade.slenderness, axial) if theory.extension else (0.0, 1)
     bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
     return continuum(slenderness, bending, axial, unit, theory.shear, theory.engesser)
 
 
-def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) -> Continuum:
+def resolved_model(blade: Blade, mode: int, theory: Theory, functions: int) -> Continuum:
     """Return the discretization, refusing a mode that it does not resolve."""
     functions = whole_number("functions", functions, least=4)
     if functions > MOST_FUNCTIONS or mode > MOST_FUNCTIONS // 2:
@@ -50,12 +51,12 @@ def resolved_model(beam: AnyBlade, mode: int, theory: Theory, functions: int) ->
             f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
             f"ask for functions={2 * mode} or more"
         )
-    return blade_continuum(beam, theory, functions, max(4, 5 * functions // 8))
+    return blade_continuum(blade, theory, functions, max(4, 5 * functions // 8))
 
 
-def require_shear(beam: AnyBlade, theory: Theory) -> None:
+def require_shear(blade: Blade, theory: Theory) -> None:
     """Refuse a number for sections that tell their shear stiffness, and True for others."""
-    if theory.shear is not None and (theory.shear is True) != beam.section.at_stations:
+    if theory.shear is not None and (theory.shear is True) != blade.section.at_stations:
         raise ValueError(
             f"shear = {theory.shear} does not fit the blade: a blade from stations tells its "
             "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "
@@ -63,11 +64,11 @@ def require_shear(beam: AnyBlade, theory: Theory) -> None:
         )
 
 
-def _unit(beam: AnyBlade, theory: Theory) -> UnitBlade:
+def _unit(blade: Blade, theory: Theory) -> UnitBlade:
     """Return the blade without dimensions, with the rotary inertia of its slices."""
-    require_shear(beam, theory)
-    blade = beam.unit
-    told = beam.section.rotary_inertia is not None
+    require_shear(blade, theory)
+    blade = blade.unit
+    told = blade.section.rotary_inertia is not None
     if told or not theory.rotary_inertia:
         return blade
     x = np.linspace(0.0, 1.0, 257)
@@ -77,7 +78,7 @@ def _unit(beam: AnyBlade, theory: Theory) -> UnitBlade:
             "have no one ρ/E to take their rotary inertia from: give "
             "Section(rotary_inertia=...) in kg m"
         )
-    return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / beam.slenderness))
+    return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / blade.slenderness))
 
 
 def on_more(q: FloatArray, own: tuple[int, ...], others: tuple[int, ...]) -> FloatArray:
@@ -212,11 +213,11 @@ BeamOrbit = Orbit[SteadyBeam]
 """A periodic orbit of the beam."""
 
 
-def steady_rotation(beam: AnyBlade, omega: float, model: Continuum) -> SteadyBeam:
+def steady_rotation(blade: Blade, omega: float, model: Continuum) -> SteadyBeam:
     """Return the beam in steady rotation at ω [rad/s], refusing a speed that tears it."""
     if model.slenderness > 0.0:
-        require_steady_state(beam, omega)
-    return SteadyBeam(model, omega / beam.frequency_scale)
+        require_steady_state(blade, omega)
+    return SteadyBeam(model, omega / blade.frequency_scale)
 
 
 class Modes(NamedTuple):
@@ -246,14 +247,14 @@ def solve_modes(steady: SteadyBeam) -> Modes:
     return Modes(1.0 / inverse[kept], coordinates / scale[:, None], slopes / scale[:, None])
 
 
-def stretched_state(beam: AnyBlade, omega: float, x: ArrayLike) -> BeamState:
+def stretched_state(blade: Blade, omega: float, x: ArrayLike) -> BeamState:
     """Return the state of the beam that turns at `omega` [rad/s] and does not swing."""
-    steady = steady_rotation(beam, omega, blade_continuum(beam, BERNOULLI_EULER, 20, 10))
-    return state_of(beam, steady.model, steady.equilibrium, np.zeros(steady.size), x)
+    steady = steady_rotation(blade, omega, blade_continuum(blade, BERNOULLI_EULER, 20, 10))
+    return state_of(blade, steady.model, steady.equilibrium, np.zeros(steady.size), x)
 
 
 def state_of(
-    beam: AnyBlade, model: Continuum, q: FloatArray, q_dot: FloatArray, x: ArrayLike
+    blade: Blade, model: Continuum, q: FloatArray, q_dot: FloatArray, x: ArrayLike
 ) -> BeamState:
     """Return the state of coordinates and their rates (n,) at the points `x` [m]; of the plane."""
     if model.in_space:
@@ -261,7 +262,11 @@ def state_of(
             "the state of a blade in space is more than u, v and their rates: take axis, at two "
             "phases for the rates"
         )
-    at, length, per_second = points_of_beam("x", x, beam.length), beam.length, beam.frequency_scale
+    at, length, per_second = (
+        points_of_beam("x", x, blade.length),
+        blade.length,
+        blade.frequency_scale,
+    )
     slope, slope_rate = model.slope(q, at), per_second * model.slope_rate(q, q_dot, at)
     z = length * model.integrated(model.slope(q), at)
     z_dot = length * per_second * model.integrated(model.slope_rate(q, q_dot), at)
