@@ -25,7 +25,7 @@ GROUPS = (
     _group(
         "Beam and blade",
         "The rotating body: its lengths, sections, masses and damping.",
-        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Tube Blade Theory",
+        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Tube Theory",
         analytic__section="OutOfPlane",
     ),
     _group(
@@ -115,7 +115,6 @@ GROUPS = (
 )
 
 DATA = {
-    "analytic.Blade": "What theory and simulation take: a `Beam` or a `Blade`.",
     "analytic.VARIANTS": "The variants of the reduced model by name: CI, CE, FrI, FrE and, by "
     "polynomials, P3, P4 and P5 of the paper; FrC, FrM and FrM5 of this package.",
 }

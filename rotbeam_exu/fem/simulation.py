@@ -9,11 +9,11 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from analytic.blade_checks import require_planar, warn_if_rpm
 from numpy.typing import ArrayLike
 
 from analytic import Blade, SteadyRotation, linear_modes
 from analytic.arrays import FloatArray
+from analytic.blade_checks import require_planar, warn_if_rpm
 from analytic.exact.continuum.planar_rotation import stretched_state
 from analytic.exact.continuum.rotation import require_bent
 from analytic.exact.continuum.state import BeamState, straight_state

@@ -55,7 +55,7 @@ OF_A_BEAM = [
     for package in (analytic, rotbeam_exu)
     for name in package.__all__
     if inspect.isfunction(getattr(package, name))
-    and next(iter(inspect.signature(getattr(package, name)).parameters), "") in ("beam", "blade")
+    and next(iter(inspect.signature(getattr(package, name)).parameters), "") == "blade"
 ]
 
 
