@@ -263,7 +263,7 @@ class Damping(Described):
 
         Parameters
         ----------
-        blade : Beam or Blade
+        blade : Blade
         mode : int
             j, from 1 to 12.
         ratio : float

@@ -37,7 +37,7 @@ def reduced_model(blade: Blade, omega: float, variant: str | Variant = "FrE") ->
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Rotation speed ω [rad/s], zero or positive.
     variant : str or Variant

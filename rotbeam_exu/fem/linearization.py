@@ -180,7 +180,7 @@ def natural_frequencies(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Steady angular velocity ω [rad/s].
     element, elements

@@ -61,7 +61,7 @@ def simulate(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
         The beam; in space with a section out of the plane, as ``beam.with_shape(Rectangle())``.
     spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, another change of the speed, or a constant
@@ -245,7 +245,7 @@ def kicked(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     kick : float
         Deflection of the tip out of the plane over L.
     planar : callable, optional

@@ -51,7 +51,7 @@ def linear_modes(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Rotation speed ω [rad/s].
     count : int
