@@ -5,6 +5,7 @@ A profile is how a quantity varies along the blade, as a value that hashes and c
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -62,13 +63,24 @@ def stations(profile: Profile) -> list[float]:
     return []
 
 
+def profile_at(x: Sequence[float], values: FloatArray) -> Profile:
+    """Return the profile of values at stations."""
+    return tuple(zip(x, values.tolist(), strict=True))
+
+
 def in_units(profile: Profile, length: float, root: float) -> Profile:
-    """Return the profile over its value at the root, stations over the length."""
+    """Return the profile over its value at the root, stations over the length.
+
+    A number, where it is the same all along: a blade is uniform however it is written.
+    """
     if not isinstance(profile, tuple):
         return profile / root
-    if stations(profile):
-        return tuple((x / length, value / root) for x, value in profile)  # type: ignore[misc]
-    return tuple(c / root for c in profile)  # type: ignore[operator]
+    if at := stations(profile):
+        values = [value / root for _, value in profile]  # type: ignore[misc]
+        same = min(values) == max(values)
+        return values[0] if same else tuple(zip((x / length for x in at), values, strict=True))
+    first, *others = (c / root for c in profile)  # type: ignore[operator]
+    return (first, *others) if any(others) else first
 
 
 def times(profile: Profile, factor: Any) -> Profile:

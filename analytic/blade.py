@@ -305,9 +305,12 @@ class Blade(Described):
 
     @property
     def is_planar(self) -> bool:
-        """Whether the blade is straight and flat, and not from stations, which may couple all."""
+        """Whether motion in the plane of bending stays there, as that of no other keeps it.
+
+        Of a straight blade, twisted at most by the same angle all along, without offsets.
+        """
         offset = any(any(one.offset) for one in self.point_masses)
-        return self.line == STRAIGHT and not offset and not self.section.at_stations
+        return self.line.is_straight and not offset and self.section.is_planar
 
     def with_taper(self, width: float = 0.0, height: float = 0.0) -> Blade:
         """Return the blade whose width and height fall to (1 - taper) of the root's at the tip.
@@ -416,9 +419,10 @@ class Blade(Described):
     def unit(self) -> UnitBlade:
         """The blade without dimensions."""
         m0, length, section = self._root("mass_per_length"), self.length, self.section
+        twist = self.line.in_units(length).twist
         return UnitBlade(
             hub=self.hub_radius / length,
-            setting=math.cos(self.setting_angle),
+            angle=self.setting_angle + (0.0 if isinstance(twist, tuple) else twist),
             masses=tuple(
                 (one.position / length, one.mass / (m0 * length), one.inertia / (m0 * length**3))
                 for one in self.point_masses

@@ -7,7 +7,6 @@ import math
 from .blade import Blade
 from .input_checks import shown
 from .parts import UNDAMPED
-from .section import OutOfPlane
 from .theory import BERNOULLI_EULER, Theory, require_theory
 from .warning import warn
 
@@ -31,22 +30,39 @@ def require_planar(
     require_blade(blade)
     if not blade.is_planar:
         raise ValueError(
-            f"{what} a straight blade in its plane, and this one is from stations or has a twist, "
-            f"precone, prebend, sweep, kink or offset: take {remedy}"
+            f"{what} a straight blade in its plane, and this one has {_beyond(blade)}: "
+            f"take {remedy}"
         )
+
+
+def _beyond(blade: Blade) -> str:
+    """Return what of a blade leaves the plane, in words."""
+    if not blade.section.is_planar:
+        return "stations that couple motion in the plane with other motion"
+    return "a twist that varies, precone, prebend, sweep, kink or offset"
 
 
 def require_out_of_plane(
     blade: Blade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
-) -> OutOfPlane:
-    """Return the section's data, refusing a blade whose own do not tell how it leaves its plane."""
+) -> Blade:
+    """Return the blade, refusing one whose section does not tell how it leaves its plane.
+
+    Its torsion is rigid where it is unknown and decides nothing.
+    """
     require_planar(blade)
+    section = blade.section
     if require_theory(theory).shear is not None:
         raise ValueError(
-            "how slices shear out of the plane is unknown: take a theory without shear"
+            "how slices shear out of the plane is left out of what grows there: take a theory "
+            "without shear"
         )
-    known = blade.section.out_of_plane
-    if known is None:
+    if section.needs_space(theory):
+        raise ValueError(
+            "stations that couple flap and torsion leave no plane to grow out of: take `stable` of "
+            "periodic_orbits, which are in space"
+        )
+    known = section.out_of_plane
+    if known is None and not section.knows_space:
         raise ValueError(
             "how this blade bends and twists out of its plane is unknown: give its section by "
             "blade.with_shape(Rectangle(height=..., width=...)) or "
@@ -55,22 +71,30 @@ def require_out_of_plane(
     if blade.unit.setting != 1.0:
         raise ValueError(
             f"motion out of the plane is known for a blade that bends in the plane of rotation, "
-            f"and this one is set at {blade.setting_angle:g} rad: take "
-            "blade.with_setting_angle(0.0)"
+            f"and this one is set at {blade.unit.angle:g} rad: take "
+            f"blade.with_setting_angle({blade.setting_angle - blade.unit.angle})"
         )
-    if torsion and known.torsion_ratio is None and known.bending_ratio != 1.0:
+    if torsion and known and known.torsion_ratio is None and known.bending_ratio != 1.0:
         raise ValueError(
             f"with a bending_ratio of {known.bending_ratio:g} the torsional stiffness decides "
             "whether the plane is stable, and it is unknown: give torsion_ratio, math.inf for a "
             "section that does not twist"
         )
-    twists = torsion and known.torsion_ratio != math.inf and known.bending_ratio != 1.0
-    if twists and blade.section.rotary_inertia == 0.0:
+    stays = known and (known.torsion_ratio == math.inf or known.bending_ratio == 1.0)
+    if torsion and not stays and not section.turns_with_inertia:
         raise ValueError(
             "motion out of the plane is not known for a twist without inertia: give the "
             "section a rotary_inertia above zero, or leave it out for a homogeneous one"
         )
-    return known
+    return with_torsion(blade)
+
+
+def with_torsion(blade: Blade) -> Blade:
+    """Return the blade with its torsion rigid where a section that flaps leaves it unknown."""
+    out = blade.section.out_of_plane
+    if out is None or out.torsion_ratio is not None:
+        return blade
+    return blade.with_section_out_of_plane(out.bending_ratio, math.inf)
 
 
 def undamped(blade: Blade) -> Blade:
@@ -78,9 +102,9 @@ def undamped(blade: Blade) -> Blade:
     return blade.with_damping(UNDAMPED) if any(blade.unit.damping) else blade
 
 
-def require_undamped(blade: Blade, what: str, *, planar: bool = True) -> None:
+def require_undamped(blade: Blade, what: str) -> None:
     """Refuse a damped blade where `what` has no damping."""
-    (require_planar if planar else require_blade)(blade)
+    require_blade(blade)
     if any(blade.unit.damping):
         raise ValueError(
             f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -146,6 +146,12 @@ class Line(Described):
                 )
         for name in ("mass_offset", "tension_offset"):
             require_offset(name, getattr(self, name), length)
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether it is straight and flat, twisted at most by the same angle all along."""
+        line = self.in_units(1.0)
+        return not isinstance(line.twist, tuple) and replace(line, twist=0.0) == STRAIGHT
 
     def in_units(self, length: float) -> Line:
         """Return the same in units of length [m]."""

@@ -15,6 +15,7 @@ import numpy as np
 from .arrays import FloatArray, Profile, evaluated, in_units, stations, times
 from .description import Described
 from .input_checks import checked_profile, finite_number, positive, require_along, warn_if_giga
+from .theory import Theory
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,6 +100,37 @@ class Section(Described):
         """Whether it is known how slices bend out of the plane, and twist."""
         out = self.out_of_plane
         return out is not None and out.torsion_ratio is not None
+
+    @property
+    def turns_with_inertia(self) -> bool:
+        """Whether slices have inertia against torsion: a told one that is not zero, or a usual."""
+        told = self.inertia_against_torsion
+        return told is None or in_units(told, 1.0, 1.0) != 0.0
+
+    @property
+    def inertia_against_torsion(self) -> Profile | None:
+        """Inertia that is there with that against torsion [kg m], None of a homogeneous section."""
+        return self.rotary_inertia
+
+    @property
+    def shear_stiffness(self) -> Profile:
+        """GA in the plane of bending [N], refused: a share of EA is asked of the theory."""
+        raise TypeError("this section does not tell its shear stiffness")
+
+    def cuts(self, length: float) -> tuple[float, ...]:
+        """Return where else than at stations of a profile slices change, over the length."""
+        del length
+        return ()
+
+    @property
+    def is_planar(self) -> bool:
+        """Whether motion in the plane stays in it, and stretches the line without bending it."""
+        return True
+
+    def needs_space(self, theory: Theory) -> bool:
+        """Whether the section tells more than the plane and small motion out of it take."""
+        del theory
+        return False
 
     def with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Self:
         """Return the section with these ratios out of the plane."""

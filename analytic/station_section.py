@@ -13,9 +13,10 @@ from typing import Any, ClassVar, Literal, Never, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import FloatArray, Profile
+from .arrays import FloatArray, Profile, profile_at
 from .input_checks import finite_array, finite_values, require_ascending, require_offset, shown
 from .section import OutOfPlane, Section
+from .theory import Theory
 
 _EVEN = 1e-6  # of a matrix whose entries a table rounds
 _POSITIVE = 1e-12  # least stiffness, over that of the axes alone
@@ -157,7 +158,7 @@ class StationSection(Section):
     axial_stiffness: Profile = field(init=False, repr=False)
     bending_stiffness: Profile = field(init=False, repr=False)
     mass_per_length: Profile = field(init=False, repr=False)
-    rotary_inertia: Profile | None = field(init=False, default=None)
+    rotary_inertia: Profile | None = field(init=False, repr=False)
     out_of_plane: OutOfPlane | None = field(init=False, default=None)
 
     at_stations: ClassVar[bool] = True
@@ -179,11 +180,14 @@ class StationSection(Section):
         for at, one in zip(x, M, strict=True):
             _require_mass(at, one)
         bending = S[:, 5, 5] - S[:, 0, 5] ** 2 / S[:, 0, 0]  # about the center of tension
-        told = zip(("axial_stiffness", "bending_stiffness", "mass_per_length"),
-                   (S[:, 0, 0], bending, M[:, 0, 0]), strict=True)  # fmt: skip
+        turning = np.maximum(M[:, 5, 5] - M[:, 0, 5] ** 2 / M[:, 0, 0], 0.0)  # and that of mass
+        places = tuple(x.tolist())
+        EA, EI, m, j = (
+            profile_at(places, one) for one in (S[:, 0, 0], bending, M[:, 0, 0], turning)
+        )
         self._keep(
-            x=tuple(x.tolist()), stiffness=nested(S), mass=nested(M),
-            **{name: tuple(zip(x.tolist(), values.tolist(), strict=True)) for name, values in told},
+            x=places, stiffness=nested(S), mass=nested(M), axial_stiffness=EA,
+            bending_stiffness=EI, mass_per_length=m, rotary_inertia=j,
         )  # fmt: skip
         super().__post_init__()
 
@@ -220,6 +224,27 @@ class StationSection(Section):
         onto, about = (1.0 - share) * ends[:, :, first] + share * ends[:, :, first + 1]
         return np.asarray(np.swapaxes(onto, -1, -2) @ about @ onto)
 
+    @cached_property
+    def is_planar(self) -> bool:
+        """Whether no entry couples motion in the plane, with centers off the line, or leaves it."""
+        others = ((0,), (1, 2, 3, 4, 5)), ((5,), (1, 2, 3, 4)), ((1,), (2, 3, 4))
+        return not any(self.couples(one, other) for one, other in others)
+
+    def needs_space(self, theory: Theory) -> bool:
+        """Whether shear, or flap that twists, is told beyond what the Hill equation takes."""
+        sheared = theory.shear is not None and not theory.engesser
+        return sheared or self.couples((3,), (2, 4)) or self.couples((2,), (4,))
+
+    @property
+    def shear_stiffness(self) -> Profile:
+        """GA2 at the stations [N]."""
+        return profile_at(self.x, self.stiffnesses[:, 1])
+
+    def cuts(self, length: float) -> tuple[float, ...]:
+        """Return the stations over the length, unless the matrices are the same at all."""
+        alike = len(set(self.stiffness)) == len(set(self.mass)) == 1
+        return () if alike else tuple(x / length for x in self.x)
+
     def couples(self, one: tuple[int, ...], other: tuple[int, ...]) -> bool:
         """Whether an entry of any matrix couples two sets of axes."""
         return bool(self._arrays[:, :, one][..., other].any())
@@ -236,7 +261,7 @@ class StationSection(Section):
     @property
     def inertia_against_torsion(self) -> Profile:
         """Inertia about the line at the stations [kg m]."""
-        return tuple((x, one[3][3]) for x, one in zip(self.x, self.mass, strict=True))
+        return profile_at(self.x, self._arrays[1, :, 3, 3])
 
     def in_units(self, length: float, mass: float, time: float) -> StationSection:
         """Return the section in units of length [m], mass [kg] and time [s]."""

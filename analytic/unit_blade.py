@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -24,15 +25,22 @@ class UnitBlade:
     """Data of a blade in units of L and the root's m, EI and EA; by default the uniform beam."""
 
     hub: float = 0.0  # δ = R/L
-    setting: float = 1.0  # c = cos ψ
+    angle: float = 0.0  # ψ [rad], with a twist that is the same all along
     # Position, mass and inertia of each point mass, over L, m0 L and m0 L³.
     masses: tuple[tuple[float, float, float], ...] = ()
     mass: Profile = 1.0  # over the root's m; stations over L here and below
     bending: Profile = 1.0  # over the root's EI
     axial: Profile = 1.0  # over the root's EA
     rotary: Profile = 0.0  # inertia against rotation over m0 L²
+    shear: Profile | None = None  # over the root's GA; as the axial stiffness if None
+    cuts: tuple[float, ...] = ()  # where slices change besides, out of the plane or in shear
     # η_b and η_a times f and d/(m0 f), with f = √(EI/(m0 L⁴)).
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    @cached_property
+    def setting(self) -> float:
+        """Cos ψ, by which rotation acts in the plane of bending."""
+        return math.cos(self.angle)
 
     @cached_property
     def panels(self) -> FloatArray:
@@ -48,7 +56,7 @@ class UnitBlade:
     def cells(self) -> FloatArray:
         """Ends of the cells on which the section is smooth and nowhere steep, 0 to 1."""
         kinks = [x for profile in self.profiles for x in stations(profile)]
-        ends = _apart([*kinks, *(position for position, _, _ in self.masses)])
+        ends = _apart([*kinks, *self.cuts, *(position for position, _, _ in self.masses)])
         ends = np.union1d(_some(ends, _MOST_CELLS), self.panels)
         return np.array([0.0, *(x for a, b in pairwise(ends) for x in self._gentle(a, b))])
 

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import FloatArray
 from ..blade import Blade
-from ..blade_checks import require_undamped, warn_if_rpm
+from ..blade_checks import require_planar, require_undamped, warn_if_rpm
 from ..input_checks import flag, points_of_beam, times_from_rest
 from ..lazily import integrate
 from ..motion import SpeedChange, require_ramp
@@ -93,6 +93,7 @@ def linear_response(
     """
     require_ramp(spin_up)
     foreshortening = flag("foreshortening", foreshortening)
+    require_planar(blade)
     require_undamped(blade, "the linear frame has no damping")
     warn_if_rpm(blade, spin_up.fastest)
     time = times_from_rest(times)
@@ -126,8 +127,7 @@ def linear_response(
         )
     coordinates = found.y[:_MODES, back].T
     across = coordinates @ (of.across.twice(along) @ modes).T
-    set_at = blade.setting_angle
-    places = along, math.cos(set_at) * across, math.sin(set_at) * across
+    places = along, unit.setting * across, math.sin(unit.angle) * across
     axis = np.stack(np.broadcast_arrays(*places), axis=-1)
     return LinearResponse(
         blade=blade, spin_up=spin_up, foreshortening=foreshortening, time=time,

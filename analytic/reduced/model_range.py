@@ -65,6 +65,7 @@ def reduced_model(blade: Blade, omega: float, variant: str | Variant = "FrE") ->
     (3.730549, 0.02355)
     """
     omega, variant = rotation_speed(omega), variant_named(variant)
+    require_planar(blade)
     require_undamped(blade, "the reduced models have no damping")
     model = model_at(blade, omega, variant)
     warn_if_rpm(blade, omega)

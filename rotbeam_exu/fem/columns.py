@@ -224,7 +224,7 @@ def _to_clamp(model: Formulation, blade: Blade) -> FloatArray:
 
     A blade in its plane is set as a whole, one in space along its sections.
     """
-    return model.line_frame(blade).T if model.twists else set_at(blade.setting_angle)
+    return model.line_frame(blade).T if model.twists else set_at(blade.unit.angle)
 
 
 class _Masses:
@@ -271,7 +271,7 @@ class _Masses:
         if case.frame == "inertial":
             change = model.turned(change, -angle)
         else:
-            setting = 0.0 if model.twists else self._beam.setting_angle
+            setting = 0.0 if model.twists else self._beam.unit.angle
             rates, turning = relative, np.array([0.0, math.sin(setting), math.cos(setting)])
         W = np.multiply.outer(per_unit * case.rotation.rate(time), turning)[:, None]
         W_dot = np.multiply.outer(per_unit**2 * case.rotation.acceleration(time), turning)[:, None]

@@ -282,14 +282,14 @@ class Continuum(Kinematics):
         rotary = np.sum(spin * (spin @ self._rotary_mass), axis=-1)
         return np.asarray(0.5 * (self._squared(self.slope_rate(q, q_dot)) + rotary))
 
-    def shares(self, q: FloatArray, shapes: ComplexArray, setting: float) -> FloatArray:
+    def shares(self, q: FloatArray, shapes: ComplexArray) -> FloatArray:
         """Return the shares of flap, lag, torsion and axial motion in their kinetic energy."""
         along, across = np.zeros((2, len(shapes)))
         for part in (shapes.real, shapes.imag):
             slope, spin = self.slope_rate(q, part), part[:, : self.bending]
             along += self._squared(slope.real)
             across += self._squared(slope.imag) + np.sum(spin * (spin @ self._rotary_mass), axis=1)
-        flap, lag = math.sin(setting) ** 2 * across, math.cos(setting) ** 2 * across
+        flap, lag = math.sin(self.blade.angle) ** 2 * across, self.setting**2 * across
         energies = np.stack((flap, lag, np.zeros_like(flap), along), axis=-1)
         return np.asarray(energies / energies.sum(axis=1, keepdims=True))
 

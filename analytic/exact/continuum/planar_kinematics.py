@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -19,8 +20,8 @@ class Kinematics:
     """Functions for θ, e and γ, and the shape that their coordinates q = (c, d) make.
 
     θ = Σ c_k φ_k with φ_k(0) = 0, and the strains are e + iγ = Σ d_k Ψ_k, with √μ ψ_k for e and
-    then i√(μ/σ) ψ_k for γ: orthonormal in the blade's own stiffness, their moments and forces
-    polynomials. Samples in time come first in every array.
+    then i√(μ/σ) ψ_k for γ, those of GA: orthonormal in the blade's own stiffness, their moments and
+    forces polynomials. Samples in time come first in every array.
     """
 
     def __init__(
@@ -36,12 +37,14 @@ class Kinematics:
         self.bending = bending
         self.axial = axial
         self.shear = 0 if shear is None else axial
-        self.shear_ratio = shear  # σ, shear over axial stiffness; None of normal sections
+        self.shear_ratio = shear  # σ, GA over EA at the root; None of normal sections
         self.families = bending, axial, self.shear
         self.size = sum(self.families)
         self.blade = blade
         self._across = shape_functions(blade, bending)
         self._along = shape_functions(blade, axial, "axial")
+        sliding = blade if blade.shear is None else replace(blade, axial=blade.shear)
+        self._sliding = shape_functions(sliding, axial, "axial")
         more = 0 if blade.cells.size == 2 else _MORE
         # Fields are evaluated at Gauss points, 2 bending on one cell.
         self.grid = blade.grid(2 * self._across.a_panel, more, of_fields=True)
@@ -119,38 +122,37 @@ class Kinematics:
         psi = math.sqrt(self.slenderness) * self._along.strain(x)
         if self.shear_ratio is None:
             return phi, psi
-        return phi, np.hstack([psi, 1j / math.sqrt(self.shear_ratio) * psi])
+        across = math.sqrt(self.slenderness / self.shear_ratio) * self._sliding.strain(x)
+        return phi, np.hstack([psi, 1j * across])
 
     def integrated(self, slope: ComplexArray, x: FloatArray) -> ComplexArray:
         """Return the integral from the clamp to `x` of a slope given at the Gauss points."""
         return slope @ self.grid.integral(x).T
 
-    def places(self, q: FloatArray, x: FloatArray, setting: float) -> FloatArray:
+    def places(self, q: FloatArray, x: FloatArray) -> FloatArray:
         """Return the places of material points `x`, (samples, points, 3), as `standing` does."""
         z = self.integrated(self.slope(q), x)
-        return np.asarray(np.stack((z.real, z.imag), axis=-1) @ set_at(setting)[:, :2].T)
+        return np.asarray(np.stack((z.real, z.imag), axis=-1) @ set_at(self.blade.angle)[:, :2].T)
 
-    def standing(
-        self, q: FloatArray, x: FloatArray, setting: float
-    ) -> tuple[FloatArray, FloatArray]:
+    def standing(self, q: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return places (samples, points, 3) and sections (samples, points, 3, 3) of points `x`.
 
-        In the frame of the clamp, of a blade set at `setting` [rad]; axes of sections in columns.
+        In the frame of the clamp; axes of sections in columns.
         """
         angle = self.split(q)[0] @ self._bases(x)[0].T
-        return self.places(q, x, setting), in_plane_of_bending(angle, setting)
+        return self.places(q, x), in_plane_of_bending(angle, self.blade.angle)
 
     def deflection(self, q: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the tip's deflection in the plane of bending, and its rate, (samples,) each."""
         return self.tip(q).imag, self.tip_rate(q, q_dot).imag
 
     def moved(
-        self, q: FloatArray, shapes: ComplexArray, x: FloatArray, setting: float
+        self, q: FloatArray, shapes: ComplexArray, x: FloatArray
     ) -> tuple[ComplexArray, ComplexArray]:
         """Return how small changes (count, n) move points, (3, points, count), and twist them."""
         parts = [self.integrated(self.slope_rate(q, one), x) for one in (shapes.real, shapes.imag)]
         plane = np.array([[z.real, z.imag] for z in np.swapaxes(parts, 1, 2)])
-        moved = np.tensordot(set_at(setting)[:, :2], plane[0] + 1j * plane[1], 1)
+        moved = np.tensordot(set_at(self.blade.angle)[:, :2], plane[0] + 1j * plane[1], 1)
         return moved, np.zeros_like(moved[0])
 
     def tip(self, q: FloatArray) -> ComplexArray:

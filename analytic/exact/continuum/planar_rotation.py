@@ -35,7 +35,12 @@ def blade_continuum(blade: Blade, theory: Theory, bending: int, axial: int) -> C
     unit = _unit(blade, require_theory(theory))
     slenderness, axial = (blade.slenderness, axial) if theory.extension else (0.0, 1)
     bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
-    return continuum(slenderness, bending, axial, unit, theory.shear, theory.engesser)
+    share = theory.shear
+    if share is True:
+        GA, L = blade.section.shear_stiffness, blade.length
+        root = float(evaluated(GA, np.zeros(1))[0])
+        share, unit = root / blade.axial_stiffness, replace(unit, shear=in_units(GA, L, root))
+    return continuum(slenderness, bending, axial, unit, share, theory.engesser)
 
 
 def resolved_model(blade: Blade, mode: int, theory: Theory, functions: int) -> Continuum:
@@ -67,7 +72,8 @@ def require_shear(blade: Blade, theory: Theory) -> None:
 def _unit(blade: Blade, theory: Theory) -> UnitBlade:
     """Return the blade without dimensions, with the rotary inertia of its slices."""
     require_shear(blade, theory)
-    unit, given = blade.unit, blade.section.rotary_inertia is not None
+    unit = replace(blade.unit, cuts=blade.section.cuts(blade.length))
+    given = blade.section.rotary_inertia is not None
     if given or not theory.rotary_inertia:
         return unit
     x = np.linspace(0.0, 1.0, 257)

@@ -18,7 +18,7 @@ from ...input_checks import finite_number
 from ...loads import Load
 from ...methods.system import Tangent
 from ...settled import refined
-from ...theory import Theory, require_theory
+from ...theory import BERNOULLI_EULER, Theory, require_theory
 from .basis import StrainFunctions
 from .planar_rotation import AtConstantRate, require_shear, steady_rotation
 from .space import SpaceContinuum
@@ -56,14 +56,21 @@ def space_continuum(blade: Blade, theory: Theory, functions: int) -> SpaceContin
     )
 
 
-def lives_in_space(blade: Blade, loads: Sequence[Load] = ()) -> bool:
-    """Whether flap, lag and torsion of a blade under loads go together.
+def leaves_plane(blade: Blade) -> bool:
+    """Whether flap, lag and torsion of a blade go together.
 
     A setting angle mixes them where the stiffness out of the plane and in torsion is known.
     """
     require_blade(blade)
-    turned = blade.setting_angle != 0.0 and blade.section.knows_space
-    return turned or not blade.is_planar or any(load.leaves_plane for load in loads)
+    return not blade.is_planar or (blade.unit.angle != 0.0 and blade.section.knows_space)
+
+
+def lives_in_space(
+    blade: Blade, theory: Theory = BERNOULLI_EULER, loads: Sequence[Load] = ()
+) -> bool:
+    """Whether a blade under loads is computed in space: also for all that its section tells."""
+    lifted = any(load.leaves_plane for load in loads)
+    return leaves_plane(blade) or lifted or blade.section.needs_space(require_theory(theory))
 
 
 def require_bent(name: str, bent: float) -> float:

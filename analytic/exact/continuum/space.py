@@ -257,17 +257,11 @@ class SpaceContinuum:
         """Whether twist shortens the axis."""
         return self.functions.theory.trapeze
 
-    def places(self, q: FloatArray, x: FloatArray, setting: float = 0.0) -> FloatArray:
-        """Return the places r of material points `x` in the root frame, (samples, points, 3).
-
-        The setting angle is in the sections.
-        """
-        del setting
+    def places(self, q: FloatArray, x: FloatArray) -> FloatArray:
+        """Return the places r of material points `x` in the root frame, (samples, points, 3)."""
         return np.moveaxis(self._state(q).slope @ self.functions.grid.integral(x).T, 0, -1)
 
-    def standing(
-        self, q: FloatArray, x: FloatArray, setting: float
-    ) -> tuple[FloatArray, FloatArray]:
+    def standing(self, q: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return places (samples, points, 3) and sections (samples, points, 3, 3) of points `x`.
 
         In the root frame; axes of sections in columns.
@@ -275,7 +269,7 @@ class SpaceContinuum:
         to_x = Frames(self.blade.running(self.functions.grid, x), self.blade.kinks)
         frame = to_x.of(self._strains(q)[1])[..., self.points.size :]
         sections = np.einsum("ijsp,jkp->spik", frame, self.blade.section_frames(x))
-        return self.places(q, x, setting), sections
+        return self.places(q, x), sections
 
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
@@ -307,19 +301,17 @@ class SpaceContinuum:
         return result
 
     def moved(
-        self, q: FloatArray, shapes: ComplexArray, x: FloatArray, setting: float
+        self, q: FloatArray, shapes: ComplexArray, x: FloatArray
     ) -> tuple[ComplexArray, ComplexArray]:
         """Return how small changes (count, n) move points, (3, points, count), and twist them."""
-        del setting
         change, onto = self.changes(q[None]), self.functions.grid.integral(x)
         place, turn = (
             onto @ np.swapaxes(shapes @ field[:, 0], 1, 2) for field in (change.slope, change.bend)
         )
         return place, turn[0]
 
-    def shares(self, q: FloatArray, shapes: ComplexArray, setting: float = 0.0) -> FloatArray:
+    def shares(self, q: FloatArray, shapes: ComplexArray) -> FloatArray:
         """Return the shares of flap, lag, torsion and axial motion in their kinetic energy."""
-        del setting
         change, masses = self.changes(q[None]), self.masses
         moved = np.abs(shapes @ change.center[:, 0]) ** 2 @ masses.mass
         frame = self._state(q[None]).frame_m[:, :, 0]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...arrays import FloatArray, Profile, evaluated
+from ...arrays import FloatArray, Profile, evaluated, in_units, profile_at
 from ...parts import STRAIGHT, Line, Offset, scaled
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from ...blade import Blade
 
 _POINTS = 40  # on each panel, for the unloaded line
+_ALIKE = 1e-12  # of EI2 and EI3, as round-off leaves them
 
 
 @dataclass(frozen=True, kw_only=True)
 class SpaceUnit(UnitBlade):
     """A blade without dimensions, with its line and its section out of the plane."""
 
-    angle: float = 0.0  # ψ [rad]
     line: Line = STRAIGHT  # over L
     flap: float = 1.0  # r = EI2/EI3
     torsion: float = math.inf  # g = GJ/EI3
@@ -93,6 +93,26 @@ class SpaceUnit(UnitBlade):
     def twists(self) -> bool:
         """Whether slices twist against each other."""
         return self.torsion < math.inf
+
+    @property
+    def bends_alike(self) -> bool:
+        """Whether slices bend out of the plane as in it."""
+        return bool(np.abs(self.flap_ratios - 1.0).max() <= _ALIKE)
+
+    @property
+    def flap_ratios(self) -> FloatArray:
+        """EI2/EI3 where they may differ."""
+        return np.array([self.flap])
+
+    @property
+    def flapping(self) -> Profile:
+        """Stiffness against flap over that at the root."""
+        return self.bending
+
+    @property
+    def twisting(self) -> Profile:
+        """Stiffness against torsion over that at the root."""
+        return self.bending
 
     @property
     def axis(self) -> FloatArray:
@@ -211,6 +231,26 @@ class StationUnit(SpaceUnit):
         return True
 
     @property
+    def flap_ratios(self) -> FloatArray:
+        """EI2/EI3 at the stations."""
+        bends = self.section.stiffnesses[:, 4:]
+        return np.asarray(bends[:, 0] / bends[:, 1])
+
+    @property
+    def flapping(self) -> Profile:
+        """EI2 over that at the root."""
+        return self._over_root(4)
+
+    @property
+    def twisting(self) -> Profile:
+        """GJ over that at the root."""
+        return self._over_root(3)
+
+    def _over_root(self, axis: int) -> Profile:
+        values = self.section.stiffnesses[:, axis]
+        return in_units(profile_at(self.section.x, values), 1.0, float(values[0]))
+
+    @property
     def half_turn(self) -> bool:
         """Whether a half turn about the blade maps its motions onto motions in reversed time."""
         return super().half_turn and not self.section.couples((0, 3), (1, 2, 4, 5))
@@ -235,9 +275,11 @@ def space_unit(blade: Blade) -> SpaceUnit:
     """Return a blade in space without dimensions; its section out of the plane is known."""
     unit, out, length = blade.unit, blade.section.out_of_plane, blade.length
     common: dict[str, Any] = {field.name: getattr(unit, field.name) for field in fields(unit)}
+    line = blade.line.in_units(length)
     common |= {
-        "angle": blade.setting_angle,
-        "line": blade.line.in_units(length),
+        "cuts": blade.section.cuts(length),
+        # A twist that is the same all along is in the angle.
+        "line": line if isinstance(line.twist, tuple) else replace(line, twist=0.0),
         "body_offsets": tuple(scaled(one.offset, length) for one in blade.point_masses),
     }
     if out is None:

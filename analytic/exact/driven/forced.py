@@ -211,7 +211,7 @@ def forced_response(
             response = _packed(blade, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
-        free = lives_in_space(blade) and not blade.damping.bending
+        free = lives_in_space(blade, theory) and not blade.damping.bending
         more = "damping of the bending, without which torsion has none," if free else "more damping"
         remedy = failed.remedy or f"take {more} or a smaller load"
         raise ResponseNotReachedError(
@@ -225,7 +225,7 @@ def _planar_or_spatial(
 ) -> tuple[SteadyBeam | SpaceBlade, float]:
     """Return the blade in steady rotation at ω [rad/s], and the tail of `Care`."""
     require_gauge(gauge)
-    if not lives_in_space(blade):
+    if not lives_in_space(blade, theory):
         if gauge == "flap":
             raise ValueError(
                 "this blade stays in its plane under the load, and gauge is 'flap': leave it out"

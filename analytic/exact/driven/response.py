@@ -87,9 +87,9 @@ class SpinUpResponse:
         """Return the sections at `x` [m], and force and moment in them, over time."""
         at = points_of_beam("x", x, self.blade.length)
         driven_at = drive(self.blade, rippled(self.spin_up, self.loads), self.loads, self._model)
-        model, setting = self._model, self.blade.setting_angle
+        model = self._model
         parts = [
-            model.standing(self._state[0, few], at, setting)
+            model.standing(self._state[0, few], at)
             + model.section_loads(at, *self._state[:, few], driven_at(self.time[few]))
             for few in few_at_once(self.time.size)
         ]
@@ -186,11 +186,10 @@ def spin_up_response(
     kick, bent = finite_number("kick", kick, "m/s"), require_bent("bent", bent)
     if (kick or bent) and not blade.is_planar:
         raise ValueError(
-            "kick and bent move a straight blade out of its plane, and this one, from stations or "
-            "with a twist, precone, prebend, sweep, kink or offset, leaves it by itself: leave "
+            "kick and bent move a blade out of its plane, which this one leaves by itself: leave "
             "them out"
         )
-    space = lives_in_space(blade, loads) or bool(kick or bent)
+    space = lives_in_space(blade, theory, loads) or bool(kick or bent)
     coarser, error, size = None, math.inf, 0.0
     fewest = math.ceil(_A_DIGIT * digits)
     # The kinks of a table leave an algebraic tail.

@@ -154,9 +154,9 @@ def integrated(
             state[:, inside] = positions, velocities, method.values(at) @ acceleration
         positions, velocities, _ = method.stages(h, q, q_dot, acceleration)
         q, q_dot = positions[-1], velocities[-1]
-    at, setting = np.append(points, 1.0), blade.setting_angle
+    at = np.append(points, 1.0)
     parts = [
-        (*model.deflection(q, q_dot), model.tip_turn(q), model.places(q, at, setting))
+        (*model.deflection(q, q_dot), model.tip_turn(q), model.places(q, at))
         for q, q_dot, _ in (state[:, few] for few in few_at_once(time.size))
     ]
     deflection, rate, twist, places = map(np.concatenate, zip(*parts, strict=True))

@@ -13,7 +13,7 @@ from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..continuum.planar_rotation import resolved_model
-from ..continuum.rotation import lives_in_space, space_continuum
+from ..continuum.rotation import leaves_plane, lives_in_space, space_continuum
 from ..linear.modes import mode_name
 from ..linear.space_modes import DIRECTIONS
 from .branches import BackboneBranch, followed_branch
@@ -21,8 +21,6 @@ from .curve import BackboneCurve, settled_curve
 from .leaving import LeavingBranch, leaving_branch
 from .orbits import Orbits, orbits_of
 from .path import ModePath
-
-_NO_FREE_ORBITS = "a damped blade has no free periodic orbits"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,11 +71,11 @@ class Backbone(ModePath):
         ...     print(f"harmonic {one.harmonic} meets {one.mode} at a = {one.amplitude:.4f}")
         harmonic 16 meets lag 3 at a = 0.1269
         """
-        self._require_plane(
+        planar = self._in_plane(
             "internal resonances are followed for planar blades only: take orbits, which end or "
             "warn near one"
         )
-        return followed_branch(self, peak_deflection("up_to", up_to))
+        return followed_branch(planar, peak_deflection("up_to", up_to))
 
     @one_thread
     def leaving(
@@ -113,17 +111,21 @@ class Backbone(ModePath):
         >>> print(f"{found.born.amplitude:.6f}")
         0.007719
         """
-        self._require_plane("orbits in space have no plane to leave: take those of lag")
+        planar = self._in_plane("orbits in space have no plane to leave: take those of lag")
         low, high = peak_deflection("low", low), peak_deflection("high", high)
         if not low < high:
             raise ValueError(f"low must be below high, got {low:g} and {high:g}")
         if whole_number("periods", periods) > 2:
             raise ValueError(f"periods must be 1 or 2, got {periods}")
-        return leaving_branch(self, low, high, periods, whole_number("points", points))
+        return leaving_branch(planar, low, high, periods, whole_number("points", points))
 
-    def _require_plane(self, sentence: str) -> None:
-        if self.model.in_space:
+    def _in_plane(self, sentence: str) -> Backbone:
+        """Return it in the plane, which orbits in space may keep to; refuse those that do not."""
+        if not self.model.in_space:
+            return self
+        if leaves_plane(self.blade) or not self.mode.startswith("lag"):
             raise ValueError(sentence)
+        return _planar(self.blade, self.omega, self.mode, self.theory, 2 * self.model.bending)
 
 
 def backbone(
@@ -168,7 +170,7 @@ def backbone(
     """
     omega = rotation_speed(omega)
     warn_if_rpm(blade, omega)
-    require_undamped(blade, _NO_FREE_ORBITS, planar=False)
+    require_undamped(blade, "a damped blade has no free periodic orbits")
     name = mode_name(blade, omega, mode, theory)
     family, number = name.split()
     if family not in DIRECTIONS:
@@ -177,15 +179,19 @@ def backbone(
             "a mode of lag or flap"
         )
     out_of_plane = family == "flap" and blade.section.knows_space
-    if lives_in_space(blade) or out_of_plane:
+    if lives_in_space(blade, theory) or out_of_plane:
         in_space = space_continuum(blade, theory, max(functions // 2, 2 * int(number) + 2))
         care = Care(tail=in_space.functions.blade.tail)
         return Backbone(
             blade=blade, omega=omega, mode=name, theory=theory, model=in_space, care=care
         )
-    require_undamped(blade, _NO_FREE_ORBITS)
-    model = resolved_model(blade, int(number), theory, functions)
-    return Backbone(blade=blade, omega=omega, mode=name, theory=theory, model=model)
+    return _planar(blade, omega, name, theory, functions)
+
+
+def _planar(blade: Blade, omega: float, mode: str, theory: Theory, functions: int) -> Backbone:
+    """Return the backbone of a mode in the plane."""
+    model = resolved_model(blade, int(mode.split()[1]), theory, functions)
+    return Backbone(blade=blade, omega=omega, mode=mode, theory=theory, model=model)
 
 
 def periodic_orbits(

@@ -107,7 +107,7 @@ class OrbitSet:
         """
         orbit, at = self._orbit(i), points_of_beam("x", x, self.blade.length)
         q, _, _ = orbit.coordinates(finite_values("phase", phase, "rad"))
-        places = orbit.system.model.places(q, at, self.blade.setting_angle)
+        places = orbit.system.model.places(q, at)
         return np.asarray(self.blade.length * places)
 
     def tip(self, i: int, phase: ArrayLike) -> FloatArray:
@@ -122,7 +122,7 @@ class OrbitSet:
         orbit, at = self._orbit(i), points_of_beam("x", x, self.blade.length)
         phases = finite_values("phase", phase, "rad")
         state = (*orbit.coordinates(phases), *orbit.drive(phases))
-        standing = orbit.system.model.standing(state[0], at, self.blade.setting_angle)
+        standing = orbit.system.model.standing(state[0], at)
         loads = orbit.system.section_loads(at, *state)
         return in_newtons(self.blade, at, standing, loads, orbit.system.model.trapeze)
 
@@ -262,7 +262,7 @@ class OrbitSet:
         for orbit in self.nondimensional:
             count, model = 8 * orbit.harmonics, orbit.system.model
             q, _, _ = orbit.coordinates(2.0 * np.pi * np.arange(count) / count)
-            place = model.places(q, np.ones(1), self.blade.setting_angle)[:, 0]
+            place = model.places(q, np.ones(1))[:, 0]
             series = np.fft.rfft(np.column_stack((place[:, 1:], model.tip_turn(q))), axis=0)
             found.append(np.fft.irfft(series, _SAMPLES, axis=0) * _SAMPLES / count)
         return found

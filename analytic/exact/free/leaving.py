@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import FloatArray
-from ...blade_checks import require_out_of_plane, require_undamped
+from ...blade_checks import require_out_of_plane
 from ...lazily import optimize
 from ...methods.arclength import corrected
 from ...methods.continuation import Care, refined
@@ -209,7 +209,6 @@ def leaving_branch(
     of: ModePath, low: float, high: float, periods: int, points: int
 ) -> LeavingBranch:
     """Return the branch that leaves the planar orbits, as `Backbone.leaving` says."""
-    require_undamped(of.blade, "a damped blade has no free periodic orbits")
     require_out_of_plane(of.blade, of.theory)
     model = space_continuum(of.blade, of.theory, of.path.at(high).system.model.bending)
     flat = space_rotation(of.blade, of.omega, model)

@@ -100,8 +100,7 @@ class ModePath:
         if self.model.in_space:
             return orbit_modes(steady, self.mode.split()[0])
         modes = solve_modes(steady)
-        names = names_in_plane(steady, modes, self.blade.setting_angle)
-        return steady, modes.frequencies, modes.coordinates, names
+        return steady, modes.frequencies, modes.coordinates, names_in_plane(steady, modes)
 
     def softening(self) -> tuple[float, float]:
         """Return λ_ω, extrapolated from the smallest orbits, and what the last of them changed.

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
 from ...blade import Blade
-from ...blade_checks import warn_if_rpm
+from ...blade_checks import warn_if_rpm, with_torsion
 from ...input_checks import rotation_speed, shown, whole_number
 from ...methods.system import inverse_eigenvalues
 from ...settled import refined, settled
@@ -24,7 +24,7 @@ from ..continuum.planar_rotation import (
     solve_modes,
     steady_rotation,
 )
-from ..continuum.rotation import lives_in_space, rotating_blade
+from ..continuum.rotation import leaves_plane, lives_in_space, rotating_blade
 from ..continuum.space import SpaceContinuum
 from .space_modes import FAMILIES, Family, LinearModes, mode_names, space_modes, space_modes_on
 
@@ -85,8 +85,8 @@ def linear_modes(
     warn_if_rpm(blade, omega)
     require_family(only)
     section = blade.section
-    unknown = section.out_of_plane is None and not section.at_stations
-    if not lives_in_space(blade) and (only in ("lag", "axial") or unknown):
+    unknown = section.out_of_plane is None and not section.knows_space
+    if not lives_in_space(blade, theory) and (only in ("lag", "axial") or unknown):
         return _modes_in_plane(blade, omega, count, theory, functions, only)
     return space_modes(_known_in_space(blade, only), omega, count, theory, only)
 
@@ -104,7 +104,7 @@ def driven_modes(
     Those of the plane of bending of a planar blade, and all of others.
     """
     warn_if_rpm(blade, rotation_speed(omega))
-    if lives_in_space(blade):
+    if lives_in_space(blade, theory):
         return space_modes(blade, omega, count, theory)
     return _modes_in_plane(blade, omega, count, theory, functions, None)
 
@@ -137,15 +137,12 @@ def _known_in_space(blade: Blade, only: Family | None) -> Blade:
     Flap of a planar blade does without it; its torsion is refused.
     """
     out = blade.section.out_of_plane
-    rigid = out is not None and (out.torsion_ratio is None or math.isinf(out.torsion_ratio))
-    if only == "torsion" and rigid:
+    if only == "torsion" and out is not None and out.torsion_ratio in (None, math.inf):
         raise ValueError(
             "torsion has no modes where torsion_ratio is unknown or infinite: give GJ/EI by "
             "with_section_out_of_plane or with_shape"
         )
-    if out is None or out.torsion_ratio is not None or lives_in_space(blade):
-        return blade
-    return blade.with_section_out_of_plane(out.bending_ratio, math.inf)
+    return blade if leaves_plane(blade) else with_torsion(blade)
 
 
 def mode_name(blade: Blade, omega: float, mode: object, theory: Theory) -> str:
@@ -162,9 +159,9 @@ def mode_name(blade: Blade, omega: float, mode: object, theory: Theory) -> str:
     return f"{family} {int(number_of)}"
 
 
-def names_in_plane(steady: SteadyBeam, modes: Modes, setting: float) -> tuple[str, ...]:
-    """Return the names of modes in the plane of bending, set at an angle [rad]."""
-    return mode_names(steady.model.shares(steady.equilibrium, _phased(steady, modes), setting))
+def names_in_plane(steady: SteadyBeam, modes: Modes) -> tuple[str, ...]:
+    """Return the names of modes in the plane of bending."""
+    return mode_names(steady.model.shares(steady.equilibrium, _phased(steady, modes)))
 
 
 def _phased(steady: SteadyBeam, modes: Modes) -> ComplexArray:
@@ -188,7 +185,7 @@ def modes_on(
     """
     if isinstance(model, SpaceContinuum):
         return space_modes_on(model, blade, omega, count, only, near=near)
-    steady, setting = steady_rotation(blade, omega, model), blade.setting_angle
+    steady = steady_rotation(blade, omega, model)
     solved = solve_modes(steady)
     shapes = _phased(steady, solved)
     modes = LinearModes(
@@ -196,11 +193,10 @@ def modes_on(
         omega=omega,
         theory=theory,
         frequencies=solved.frequencies * blade.frequency_scale,
-        shares=model.shares(steady.equilibrium, shapes, setting),
+        shares=model.shares(steady.equilibrium, shapes),
         error=math.nan,
         model=model,
         coordinates=shapes,
-        setting=setting,
         _steady=steady.equilibrium,
     )
     return modes.lowest(count, only)

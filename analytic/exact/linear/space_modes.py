@@ -91,7 +91,6 @@ class LinearModes:
     error: float
     model: Any = field(repr=False)
     coordinates: ComplexArray = field(repr=False)
-    setting: float = field(repr=False)
     _steady: FloatArray = field(repr=False)
 
     @property
@@ -109,7 +108,7 @@ class LinearModes:
         """
         length = self.blade.length
         at = np.append(points_of_beam("x", x, length), 1.0)
-        moved, turn = self.model.moved(self._steady, self.coordinates, at, self.setting)
+        moved, turn = self.model.moved(self._steady, self.coordinates, at)
         parts = np.concatenate((length * moved, turn[None]))
         tip = parts[:3, -1]
         largest = np.take_along_axis(tip, np.argmax(np.abs(tip), axis=0)[None], axis=0)[0]
@@ -177,7 +176,6 @@ def _modes_of(blade: Blade, omega: float, steady: SpaceBlade) -> LinearModes:
         theory=steady.model.functions.theory,
         frequencies=frequencies * blade.frequency_scale,
         shares=steady.model.shares(steady.equilibrium, shapes.T),
-        setting=0.0,
         error=math.nan,
         model=steady.model,
         coordinates=shapes.T,

@@ -63,7 +63,7 @@ class SteadyState:
         at = points_of_beam("x", x, self.blade.length)
         state = self._steady.equilibrium[None]
         still = np.zeros_like(state)
-        (place,), (section,) = self._steady.model.standing(state, at, self.blade.setting_angle)
+        (place,), (section,) = self._steady.model.standing(state, at)
         (force,), (moment,) = self._steady.section_loads(at, state, still, still)
         standing, loads = (place, section), (force, moment)
         return in_newtons(self.blade, at, standing, loads, self.theory.trapeze)

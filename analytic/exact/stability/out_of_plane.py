@@ -2,7 +2,7 @@
 
 With the deflection w, β = w'/(1 + e) the angle of the tangent to the plane, φ the twist of the
 section about the tangent, κ = ϑ' and N the planar motion's curvature and axial force, in units of
-the root's EI, m and L, and ratios r and g of the `OutOfPlane` section,
+the root's EI, m and L, and r = EI2/EI and g = GJ/EI of the slices, which may vary along the blade,
 
     L2 = ½∫ẇ² dm + ½∫j φ̇² dx - ½∫(1 + e) N β² dx
          - ½∫[Nk²(φ' + κβ)² + ιs²φ² - j2w̄²β²] dx
@@ -20,9 +20,9 @@ EIκ alone.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,16 +32,32 @@ from ...blade_checks import require_out_of_plane
 from ...lazily import linalg
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent
-from ...shape_functions import ShapeFunctions, shape_functions
+from ...shape_functions import shape_functions
 from ...theory import BERNOULLI_EULER, Theory
 from ..continuum.planar import Continuum
 from ..continuum.planar_rotation import SteadyBeam
+from ..continuum.unit import space_unit, trapeze_of
 
 
-@lru_cache(maxsize=32)
-def _bases(shapes: ShapeFunctions, model: Continuum) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return w'' and w' (φ' and φ) of the functions at the model's points, and its integrals."""
-    return shapes.strain(model.points), shapes.once(model.points), model.integrals_at_points
+class _Slices(NamedTuple):
+    """Data of slices at points, each (points,), over the root's EI, m0 and L."""
+
+    flap: FloatArray  # EI2
+    torsion: FloatArray  # GJ; infinite where none is needed
+    gyration: FloatArray  # k² = (EI2 + EI3)/EA
+    j1: FloatArray  # against torsion
+    j2: FloatArray  # against flap
+    j3: FloatArray
+
+
+class _Bases(NamedTuple):
+    """Functions at a model's points, (points, functions), and the integrals up to each."""
+
+    w_bent: FloatArray  # w''
+    w_slope: FloatArray  # w'
+    twist_rate: FloatArray  # φ'
+    twist: FloatArray  # φ
+    upto: FloatArray
 
 
 class Space:
@@ -52,20 +68,36 @@ class Space:
     """
 
     def __init__(self, blade: Blade, functions: int, theory: Theory = BERNOULLI_EULER) -> None:
-        section = require_out_of_plane(blade)
-        self.blade, self.unit, self.section, self.theory = blade, blade.unit, section, theory
-        self.shapes = shape_functions(self.unit, functions)
+        blade = require_out_of_plane(blade)
+        self.blade, self.unit, self.theory = blade, space_unit(blade), theory
+        # Those of the blade's plane, where the stiffness varies as in it.
+        self.shapes, self.twisting = (
+            shape_functions(replace(blade.unit, bending=profile), functions)
+            for profile in (self.unit.flapping, self.unit.twisting)
+        )
         self.functions = self.shapes.count
-        self.g = np.inf if section.torsion_ratio is None else section.torsion_ratio
         # At r = 1 the twist follows κβ at no cost, whatever g. Its inertia would split the double
         # multiplier 1 at rest, for the spin about the tangent is not φ̇ alone.
-        self.twists = bool(np.isfinite(self.g)) and section.bending_ratio != 1.0
-        told = blade.section.rotary_inertia
-        self._told = told is not None
+        self.twists = self.unit.twists and not self.unit.bends_alike
         # Whether slices turn in bending too, or feel the clamp's rotation, or neither.
-        self._whole = self._told or theory.rotary_inertia
+        self._whole = self.unit.turns or theory.rotary_inertia
         self._carried = theory.trapeze and not self._whole
         self.size = (1 + self.twists) * self.functions
+        self._on = lru_cache(maxsize=8)(self._on_points)
+
+    def _slices(self, x: FloatArray) -> _Slices:
+        """Return the slices at `x`."""
+        mu = self.blade.slenderness
+        soft, J = self.unit.flexibility(x, BERNOULLI_EULER, mu), self.unit.inertia_about(x, mu)[1]
+        with np.errstate(divide="ignore"):
+            torsion = 1.0 / soft[:, 3, 3]
+        return _Slices(1.0 / soft[:, 4, 4], torsion, trapeze_of(soft), J[0, 0], J[1, 1], J[2, 2])
+
+    def _on_points(self, model: Continuum) -> tuple[_Slices, _Bases]:
+        """Return slices and functions at a model's points, and its integrals."""
+        x, parts = model.points, (self.shapes, self.twisting)
+        w, phi = ((of.strain(x), of.once(x)) for of in parts)
+        return self._slices(x), _Bases(*w, *phi, model.integrals_at_points)
 
     @cached_property
     def mass(self) -> FloatArray:
@@ -76,66 +108,42 @@ class Space:
         if not self.twists:
             return across
         x, dx = self.unit.quadrature(self.shapes.a_panel + 8)
-        phi = self.shapes.once(x)
-        return linalg.block_diag(across, phi.T @ ((dx * self._polar(x))[:, None] * phi))
-
-    def _held(self, x: FloatArray, tension: FloatArray) -> FloatArray:
-        """Return GJ + Nk² at `x`."""
-        r, unit = self.section.bending_ratio, self.unit
-        torsion = self.g * evaluated(unit.bending, x)
-        gyration = evaluated(unit.bending, x) / evaluated(unit.axial, x)
-        if self.theory.trapeze:
-            torsion = torsion + tension * self.blade.slenderness * (1.0 + r) * gyration
-        return np.broadcast_to(torsion, tension.shape)
-
-    def _turned(
-        self, x: FloatArray, rate: FloatArray, spin: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return ιs² and j2w̄² at `x` of slices that turn in the plane by the rate `spin`."""
-        polar, r = self._polar(x) / (1.0 + self.section.bending_ratio), self.section.bending_ratio
-        carried = self._carried * np.square(rate) * polar
-        held = carried + self._whole * np.square(spin) * polar
-        return (1.0 - r) * held, r * carried
-
-    def _polar(self, x: FloatArray) -> FloatArray:
-        """Return j at `x`, over m0 L²."""
-        unit, both = self.unit, 1.0 + self.section.bending_ratio
-        if self._told:
-            return both * evaluated(unit.rotary, x)
-        own = evaluated(unit.mass, x) * evaluated(unit.bending, x) / evaluated(unit.axial, x)
-        return self.blade.slenderness * both * own
+        phi = self.twisting.once(x)
+        return linalg.block_diag(across, phi.T @ ((dx * self._slices(x).j1)[:, None] * phi))
 
     def stiffness(
         self, planar: Any, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, *drive: Any
     ) -> FloatArray:
         """Return the stiffness (samples, n, n) about a motion of `planar` under its drive."""
-        model, r = planar.model, self.section.bending_ratio
-        x, (strain, once, upto) = model.points, _bases(self.shapes, model)
+        model, by = planar.model, planar.by(*drive)
+        of, (strain, once, strain_t, once_t, upto) = self._on(model)
         kappa, e, change = model.bent(q)
-        by = planar.by(*drive)
         tension = model.tension(q, q_dot, q_ddot, by)
-        bending, kappa_dot = model.weights * evaluated(self.unit.bending, x), model.bent(q_dot)[0]
-        moment = bending * (kappa + model.blade.damping[0] * kappa_dot)
-        excess = moment - r * bending * kappa
+        bending, kappa_dot = evaluated(self.unit.bending, model.points), model.bent(q_dot)[0]
+        moment = model.weights * bending * (kappa + model.blade.damping[0] * kappa_dot)
+        flap = model.weights * of.flap
+        excess = moment - flap * kappa
         stretch = 1.0 / (1.0 + e)
         angle = stretch[..., None] * once
         bent = stretch[..., None] * strain - (change * stretch**2)[..., None] * once
         straight = _form(angle, model.weights * tension / stretch - moment * kappa, angle)
-        straight += _form(bent, r * bending, bent)
+        straight += _form(bent, flap, bent)
         rate = np.asarray(by.rate)[..., None]
-        turning, tilting = self._turned(x, rate, rate + kappa_dot @ upto.T)
-        straight -= _form(angle, model.weights * tilting, angle)
+        # ιs², and j2w̄² of slices that feel the clamp's rotation alone.
+        carried, spin = self._carried * np.square(rate), rate + kappa_dot @ upto.T
+        turning = (of.j3 - of.j2) * (carried + self._whole * np.square(spin))
+        straight -= _form(angle, model.weights * carried * of.j2, angle)
         if not self.twists:
             twist = -np.einsum("xy,sy,syk->sxk", upto, kappa, angle, optimize=True)
             mixed = _form(bent, excess, twist)
             twisted = _form(twist, model.weights * turning - excess * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
-        torsion = model.weights * self._held(x, tension)
+        torsion = model.weights * (of.torsion + self.theory.trapeze * tension * of.gyration)
         straight += _form(angle, torsion * kappa**2, angle)
-        mixed = _form(angle, torsion * kappa, strain)
-        mixed += _form(bent, excess, once)
-        twisted = _form(strain, torsion, strain)
-        twisted += _form(once, model.weights * turning - excess * kappa, once)
+        mixed = _form(angle, torsion * kappa, strain_t)
+        mixed += _form(bent, excess, once_t)
+        twisted = _form(strain_t, torsion, strain_t)
+        twisted += _form(once_t, model.weights * turning - excess * kappa, once_t)
         return np.concatenate(
             (
                 np.concatenate((straight, mixed), axis=2),
@@ -148,8 +156,8 @@ class Space:
         self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each."""
-        model, r, (viscosity, _, air) = planar.model, self.section.bending_ratio, self.unit.damping
-        x, (strain, once, upto) = model.points, _bases(self.shapes, model)
+        model, (viscosity, _, air) = planar.model, self.unit.damping
+        of, (strain, once, strain_t, once_t, upto) = self._on(model)
         (kappa, e, change), (kappa_dot, e_dot, change_dot) = model.bent(q), model.bent(q_dot)
         s = 1.0 / (1.0 + e)
         s_dot = -e_dot * s**2
@@ -159,24 +167,24 @@ class Space:
         flap_dot -= _times(change_dot * s**2 + 2.0 * change * s * s_dot, once)
         curved = _times(kappa, angle)
         curved_dot = _times(kappa_dot, angle) + _times(kappa, angle_dot)
-        viscous = viscosity * model.weights * evaluated(self.unit.bending, x)
+        viscous = viscosity * model.weights
         if self.twists:
-            flap = np.concatenate((flap, -_times(kappa, once)), axis=2)
-            flap_dot = np.concatenate((flap_dot, -_times(kappa_dot, once)), axis=2)
-            along = np.broadcast_to(strain, curved.shape)
+            flap = np.concatenate((flap, -_times(kappa, once_t)), axis=2)
+            flap_dot = np.concatenate((flap_dot, -_times(kappa_dot, once_t)), axis=2)
+            along = np.broadcast_to(strain_t, curved.shape)
             torsion = np.concatenate((curved, along), axis=2)
             torsion_dot = np.concatenate((curved_dot, 0.0 * along), axis=2)
-            damping = _form(torsion, self.g * viscous, torsion)
-            stiffness = _form(torsion, self.g * viscous, torsion_dot)
+            damping = _form(torsion, viscous * of.torsion, torsion)
+            stiffness = _form(torsion, viscous * of.torsion, torsion_dot)
         else:
             twist, twist_dot = -upto @ curved, -upto @ curved_dot
             flap_dot = flap_dot - _times(kappa_dot, twist) - _times(kappa, twist_dot)
             flap = flap - _times(kappa, twist)
             damping, stiffness = np.zeros((2, len(q), self.size, self.size))
-        w = self.shapes.twice(x)
+        w = self.shapes.twice(model.points)
         damping[:, : self.functions, : self.functions] += air * _form(w, model.weights, w)
-        damping += _form(flap, r * viscous, flap)
-        return damping, stiffness + _form(flap, r * viscous, flap_dot)
+        damping += _form(flap, viscous * of.flap, flap)
+        return damping, stiffness + _form(flap, viscous * of.flap, flap_dot)
 
 
 def with_points_for(planar: Any, functions: int) -> Any:

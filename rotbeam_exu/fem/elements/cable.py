@@ -12,6 +12,7 @@ import numpy as np
 from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.blade_checks import require_out_of_plane
+from analytic.exact.continuum.unit import space_unit
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items
@@ -107,7 +108,8 @@ class SpaceCable(_Cables, SpaceSlopeNodes):
     def require_section(self, blade: Blade) -> None:
         """Refuse a section that bends otherwise out of the plane than in it."""
         require_bare(self, blade)
-        ratio = require_out_of_plane(blade, torsion=False).bending_ratio
+        ratios = space_unit(require_out_of_plane(blade, torsion=False)).flap_ratios
+        ratio = ratios[np.argmax(np.abs(ratios - 1.0))]
         if abs(ratio - 1.0) > 1e-9:
             raise ValueError(
                 f"element 'space_cable' bends alike in all directions, and this blade {ratio:.4g} "

@@ -171,7 +171,7 @@ def test_the_gauge_is_how_far_the_tip_has_moved_along_its_direction():
     model, still = steady.model, steady.equilibrium[None]
     assert steady.gauge(still) == pytest.approx(0.0, abs=1e-14)
     q, q_dot, _ = states(model, 0.1)
-    moved, rest = (model.places(state, np.ones(1), 0.0)[:, 0] for state in (q, still))
+    moved, rest = (model.places(state, np.ones(1))[:, 0] for state in (q, still))
     assert steady.gauge(q) == pytest.approx((moved - rest) @ along, abs=1e-12)
     h = 1e-6
     rate = (steady.gauge(q + h * q_dot) - steady.gauge(q - h * q_dot)) / (2.0 * h)
@@ -213,7 +213,7 @@ def test_the_unloaded_line_is_that_of_the_equations_kinks_included():
     """Elements of other codes begin on it; without the kink the tip is 0.15 away."""
     model, x = space(ALL, bending=12), np.array([0.2, 0.5, 1.0])
     place, sections = ALL.unloaded(x)
-    (expected,) = model.places(np.zeros((1, model.size)), x, 0.0)
+    (expected,) = model.places(np.zeros((1, model.size)), x)
     assert place == pytest.approx(expected, abs=1e-12)
     assert sections @ sections.swapaxes(1, 2) == pytest.approx(np.tile(np.eye(3), (3, 1, 1)))
 
