@@ -26,7 +26,15 @@ from ..continuum.planar_rotation import (
 )
 from ..continuum.rotation import leaves_plane, lives_in_space, rotating_blade
 from ..continuum.space import SpaceContinuum
-from .space_modes import FAMILIES, Family, LinearModes, mode_names, space_modes, space_modes_on
+from .space_modes import (
+    FAMILIES,
+    Family,
+    LinearModes,
+    blocks_of,
+    mode_names,
+    space_modes,
+    space_modes_on,
+)
 
 _SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
@@ -206,7 +214,7 @@ def modes_on(
 def damping_ratios(
     blade: Blade, omega: float, count: int = 3, *, theory: Theory = BERNOULLI_EULER
 ) -> FloatArray:
-    """Return the damping ratios ζ of modes, (count,): of a planar blade those in its plane.
+    """Return the damping ratios ζ of the modes of `linear_modes`, (count,).
 
     ζ = -Re λ/|λ| of the eigenvalues λ of small vibration about the stretched state; free vibration
     of mode j decays as exp(-ζ_j |λ_j| t), with |λ_j| near the frequency of `linear_modes`.
@@ -231,19 +239,24 @@ def damping_ratios(
     [0.00791 0.00831 0.02347]
     """
     omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
-    modes = driven_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
+    modes = linear_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
     steady = rotating_blade(blade, omega, modes.model)
     at_rest = np.zeros((1, steady.size))
     tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
-    inverse = inverse_eigenvalues(tangent.mass[0], tangent.damping[0], tangent.stiffness[0])
-    inverse = inverse[inverse.imag < 0.0]
-    size = 1.0 / (np.abs(inverse) * modes.frequencies[:, None] / blade.frequency_scale)
-    nearest = np.argmin(np.abs(size - 1.0), axis=1)
-    for mode, found in enumerate(nearest):
-        if abs(size[mode, found] - 1.0) > _SAME or found in nearest[:mode]:
-            raise ValueError(
-                f"mode {mode + 1} is damped so much that it does not oscillate: ask for count="
-                f"{mode} or less, or take less damping"
-            )
-    # -Re λ/|λ| is -Re(1/λ)/|1/λ|.
-    return np.asarray(-inverse[nearest].real / np.abs(inverse[nearest]))
+    ratios, sizes = np.empty(count), modes.frequencies / blade.frequency_scale
+    for block in blocks_of(steady):
+        parts = (part[0][np.ix_(block, block)] for part in tangent[:0:-1])
+        inverse = inverse_eigenvalues(*parts)
+        inverse = inverse[inverse.imag < 0.0]
+        moving = np.flatnonzero(modes.coordinates[:, block].any(axis=1))
+        off = np.abs(1.0 / (np.abs(inverse) * sizes[moving, None]) - 1.0)
+        nearest = np.argmin(off, axis=1)
+        for k, (mode, found) in enumerate(zip(moving, nearest, strict=True)):
+            if off[k, found] > _SAME or found in nearest[:k]:
+                raise ValueError(
+                    f"mode {mode + 1} is damped so much that it does not oscillate: ask for count="
+                    f"{mode} or less, or take less damping"
+                )
+        # -Re λ/|λ| is -Re(1/λ)/|1/λ|.
+        ratios[moving] = -inverse[nearest].real / np.abs(inverse[nearest])
+    return ratios

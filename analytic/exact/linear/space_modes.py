@@ -186,20 +186,22 @@ def _modes_of(blade: Blade, omega: float, steady: SpaceBlade) -> LinearModes:
 def _solved(steady: SpaceBlade) -> tuple[FloatArray, ComplexArray]:
     """Return the frequencies, ascending, and the shapes (n, modes) in columns.
 
-    Where lag goes without flap and torsion each block is solved alone: equal frequencies of both
-    would mix them.
+    Each block is solved alone: equal frequencies of both would mix them.
     """
-    functions = steady.model.functions
-    if not functions.uncoupled or steady.push is not None:
-        return _block(steady, np.arange(steady.size))
-    turned, mirrored = functions.odd_by(mirror=False), functions.odd_by(mirror=True)
-    # The mirror through the plane keeps lag and axial motion, and turns flap and torsion around.
-    parts = [
-        _block(steady, np.flatnonzero(one)) for one in (turned == mirrored, turned != mirrored)
-    ]
+    parts = [_block(steady, block) for block in blocks_of(steady)]
     frequencies, shapes = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
     order = np.argsort(frequencies, kind="stable")
     return frequencies[order], shapes[:, order]
+
+
+def blocks_of(steady: Any) -> list[NDArray[np.intp]]:
+    """Return the places of coordinates that go without the others: of lag, of flap and torsion."""
+    model = steady.model
+    if not model.in_space or not model.functions.uncoupled or steady.push is not None:
+        return [np.arange(steady.size)]
+    turned, mirrored = (model.functions.odd_by(mirror=one) for one in (False, True))
+    # The mirror through the plane keeps lag and axial motion, and turns flap and torsion around.
+    return [np.flatnonzero(one) for one in (turned == mirrored, turned != mirrored)]
 
 
 def flap_shape(model: SpaceContinuum) -> FloatArray:

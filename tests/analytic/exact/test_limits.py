@@ -68,10 +68,7 @@ def diagram(blade, theory):
 
 def damping(blade, theory):
     damped = blade.with_damping(Damping(bending=0.01, external=0.05))
-    lag = "lag 1" if blade.is_planar and not blade.setting_angle else None
-    names = linear_modes(blade, SPEED, 3, theory=theory).names
-    at = 0 if lag else names.index("lag 1")
-    return {"ratio": damping_ratios(damped, SPEED, at + 1, theory=theory)[at]}
+    return {"ratios": damping_ratios(damped, SPEED, 4, theory=theory)}
 
 
 def state(blade, theory):
