@@ -19,7 +19,6 @@ from analytic import (
     backbone,
     design_ramp,
     forced_response,
-    linear_modes,
     linear_response,
     periodic_orbits,
     quiet_ramp_times,
@@ -62,9 +61,7 @@ def by_table(tip, places=(0, 1, 2), **more):
 
 def by_matrices(tip, interpolation):
     table = by_table(tip).section
-    return Blade.from_stations(
-        table.x, table.stiffness, table.mass, interpolation=interpolation
-    )
+    return Blade.from_stations(table.x, table.stiffness, table.mass, interpolation=interpolation)
 
 
 def by_shapes(tip):
@@ -113,7 +110,7 @@ def residual(blade, theory):
 
 
 def quiet(blade, theory):
-    found = quiet_ramp_times(blade, 1.0, longest=2.5, tolerance=1e-8)
+    found = quiet_ramp_times(blade, 1.0, longest=4.0, tolerance=1e-6)
     return {"linear": found.linear, "left": found.left, "times": found.ramp_times}
 
 
@@ -166,7 +163,7 @@ CHEAP = (
 DEAR = (
     limits.diagram, limits.response, limits.spin_up, residual, quiet, design, growth, limit, branch
 )  # fmt: skip
-WITHIN = {design: 1e-6}  # to which it is settled; else 1e-8
+WITHIN = {design: 1e-5}  # of which it leaves 1e-5 after exact transients; else 1e-8
 
 
 @cache
@@ -205,3 +202,26 @@ def test_a_table_has_the_answer_of_coefficients(verb):
 @pytest.mark.parametrize("tip", TIPS.values(), ids=TIPS)
 def test_all_ways_have_one_answer_that_takes_time(verb, tip):
     require_one_answer(verb, tip, WAYS)
+
+
+@pytest.mark.parametrize("softer", [True, False], ids=["all varies", "flap and torsion vary"])
+def test_growth_where_flap_and_torsion_vary_otherwise_is_that_in_space(softer):
+    """Multipliers of the Hill equation, far from 1, to what half a thousandth of a phase is.
+
+    A twist of 1e-12 rad that varies leaves the plane: its orbits are in space.
+    """
+    along, mu = (1.0 - 0.4 * PLACES if softer else np.ones(3)), 1e-6
+    flap, torsion = 0.1 + 0.1 * PLACES, 0.1 - 0.05 * PLACES
+    ratios = np.stack([*(1.0 / mu * np.ones((3, 3))), torsion, flap, np.ones(3)], axis=1)
+    turning = np.stack([np.ones(3) / mu, 1.0 + flap, flap, np.ones(3)], axis=1)
+    S, M = along[:, None] * ratios, mu * along[:, None] * turning
+    table = Blade.from_stations(PLACES, S, M)
+    orbits = periodic_orbits(table, 2.0, [0.4])
+    found = np.concatenate([orbits.multipliers[0], orbits.out_of_plane().multipliers[0]])
+    space = periodic_orbits(
+        table.with_twist(tuple(zip(PLACES, [0.0, 1e-12, 0.0], strict=True))), 2.0, [0.4]
+    )
+    assert orbits.stable[0] == space.stable[0] == False  # noqa: E712
+    for one in space.multipliers[0]:
+        nearest = found[np.argmin(np.abs(np.log(found / one)))]
+        assert np.log(nearest) == pytest.approx(np.log(one), abs=5e-3)
