@@ -227,7 +227,8 @@ def _(response: ForcedResponse) -> xr.Dataset:
     data = _curve(response)
     data = data.assign_attrs(stable_covers=response.covers)
     if (found := response._growth) is None:
-        if response.blade.section.out_of_plane is None or response._in_space:
+        section = response.blade.section
+        if response._in_space or (section.out_of_plane is None and not section.knows_space):
             return data
         return data.assign_attrs(planar=f"Stability is about {response.covers}")
     growth = {

@@ -74,7 +74,7 @@ def stability(
     require_planar(
         blade, "planar motion is of", "rotbeam backbone --exact, whose orbits are in space"
     )
-    if blade.section.out_of_plane is None:
+    if blade.section.out_of_plane is None and not blade.section.knows_space:
         raise ValueError(
             "the section out of the plane is unknown: give --section rectangle or --section tube, "
             "or [blade.section.out_of_plane] in --config"

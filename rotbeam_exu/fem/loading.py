@@ -19,7 +19,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from analytic import Blade
+from analytic import Blade, Section
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.loads import Load
@@ -51,7 +51,11 @@ class Loading:
         size, per_node = mass.shape[0], model.angles.size
         of_length = sparse.csr_array(mass.shape)
         if external or any(onto == "length" for _, onto in forces):
-            section = replace(blade.section, mass_per_length=1.0, rotary_inertia=0.0)
+            own = blade.section
+            section = Section(
+                axial_stiffness=own.axial_stiffness, bending_stiffness=own.bending_stiffness,
+                mass_per_length=1.0, rotary_inertia=0.0, out_of_plane=own.out_of_plane,
+            )  # fmt: skip
             light = replace(blade.with_section(section), point_masses=())
             of_length = mass_matrix(model, light, elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
