@@ -13,9 +13,9 @@ import analytic
 from analytic import Blade
 from analytic.warning import warn
 
+from .asked import Asked, asks
 from .job import Flag
-from .motion import configured, omega_of
-from .options import Amplitudes, Config, Omega, TheoryPairs, Whole, theory_of
+from .options import Amplitudes, Whole
 from .output import Format, bar, print_columns, print_note
 
 if TYPE_CHECKING:
@@ -26,17 +26,16 @@ Refusal = tuple[str, str]
 """A model's name, and why it has no answer."""
 
 
+@asks("omega", "theory")
 def backbone(
+    asked: Asked,
     *,
-    omega: Omega = None,
     amplitude: Amplitudes = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
     variant: str | None = None,
     all_variants: Flag = False,
     exact: Flag = False,
     mode: str = "lag 1",
     functions: Whole = 16,
-    theory: TheoryPairs = None,
-    config: Config = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
     """Print the frequency over the amplitude, reduced and exact.
@@ -69,29 +68,26 @@ def backbone(
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
     $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
-    file = configured(config, "motion.omega", "theory")
-    omega, law = omega_of(file, omega), theory_of(file, theory)
+    blade, omega, theory = asked.blade, asked.omega, asked.theory
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
     names = told or (["FrM"] if mode == "lag 1" else [])
     exact = exact or not told
-    if law != analytic.Theory() and not exact:
-        raise ValueError(f"{law} is a theory of the exact beam: add --exact")
+    if theory != analytic.Theory() and not exact:
+        raise ValueError(f"{theory} is a theory of the exact beam: add --exact")
     refused: list[Refusal] = []
     models = []
     for name in names:
         try:
-            models.append(analytic.reduced_model(file.blade, omega, name))
+            models.append(analytic.reduced_model(blade, omega, name))
         except ValueError as error:
             refused.append((name, str(error)))
     if told and not models:
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
     if exact:
-        orbits, failure = _exact(
-            file.blade, omega, amplitude, mode, functions=functions, theory=law
-        )
+        orbits, failure = _exact(blade, omega, amplitude, mode, functions=functions, theory=theory)
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
         columns |= _exact_columns(orbits, amplitude, len(models))

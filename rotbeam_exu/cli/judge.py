@@ -22,9 +22,8 @@ from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run, Submission
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
+from .asked import Asked, asks, element_of
 from .job import require_writable, write_text
-from .motion import configured, element_of, motion_of
-from .options import Config
 from .output import bar, counter, formatted, print_columns, print_note, print_text, print_written
 
 _SHORT = {
@@ -149,7 +148,8 @@ def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
         print_note(f"{', '.join(one.case for one in alike)}: a usual mistake? {alike[0]}")
 
 
-def verify(*, element: list[str] | None = None, config: Config = None) -> None:
+@asks("motion", "numerics.duration", "numerics.step")
+def verify(asked: Asked, *, element: list[str] | None = None) -> None:
     """Judge elements by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
@@ -172,19 +172,18 @@ def verify(*, element: list[str] | None = None, config: Config = None) -> None:
     from ..verification.verify import verify as verification_of
 
     own = [formulation_entry(element_of(name)) for name in element or ()]
-    file = configured(config, "motion", "numerics.duration", "numerics.step")
-    motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
+    motion = asked.motion
     entries = own or entries_at_hand()
-    if config:
+    if asked.config:
         entries = [replace(entry, step=motion.step) for entry in entries]
-    mine: dict[str, Any] = {"blade": file.blade, "spin_up": motion.spin_up} if config else {}
+    mine: dict[str, Any] = {"blade": asked.blade, "spin_up": motion.spin_up} if asked.config else {}
     found = []
     with counter("verifying") as progress:
         for entry in entries:
             found.append(verification_of(entry, duration=motion.duration, **mine))
             progress(len(found), len(entries))
     of_own = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
-    print_judgements(found, of_own if config else "the paper's beam")
+    print_judgements(found, of_own if asked.config else "the paper's beam")
 
 
 def print_judgements(found: Sequence[Judgement], about: str) -> None:

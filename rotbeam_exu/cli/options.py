@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, fields, make_dataclass, replace
@@ -13,13 +12,12 @@ from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter, Token
 
-from analytic import Blade, Damping, Theory
+from analytic import Blade, Damping
 from analytic.description import kinds_of
 from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
-from ..files.beam_file import RunFile
-from ..files.beam_tables import THEORY, require_keys
+from ..runs import Frame
 from .job import Flag, telling_what_is_kept
 from .output import counter
 
@@ -68,13 +66,6 @@ Amplitudes = Annotated[
     list[Number],
     Parameter(consume_multiple=True, show_default=lambda given: " ".join(f"{a:g}" for a in given)),
 ]
-Config = Annotated[
-    Path | None,
-    Parameter(
-        help="TOML file with [beam] or [blade], and optionally [motion], [numerics], [theory] and "
-        "[[loads]]; options given here replace its values. Without a file: the paper's beam."
-    ),
-]
 Omega = Annotated[
     Number | None,
     Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
@@ -98,21 +89,11 @@ RampTime = Annotated[
     Number | None,
     Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
 ]
+Duration = Annotated[Number | None, Parameter(help="End of the motion [s].")]
+LoadFrequency = Annotated[
+    Number | None, Parameter(help="Frequency of the loads given as options [rad/s].")
+]
 NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
-
-
-def theory_of(file: RunFile, given: Sequence[str] | None) -> Theory:
-    """Return the theory of --theory, whose pairs are lines of TOML, over [theory] of the file."""
-    pairs = given or ()
-    try:
-        told = tomllib.loads("\n".join(pairs))
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(
-            f"--theory takes key=value as in a file, as trapeze=false shear=0.3, got "
-            f"{' '.join(pairs)!r}: {error}"
-        ) from error
-    require_keys(told, THEORY, "--theory")
-    return Theory(**{**file.theory, **told})
 
 
 def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
@@ -175,12 +156,6 @@ class SectionOptions:
     section: _Section = None
     ratio: Number | None = None
 
-    @property
-    def name(self) -> str:
-        """The shape as part of a file's name."""
-        shape = self.section or "given"
-        return shape if self.ratio is None else f"{shape}-{self.ratio:g}"
-
     def of(self, blade: Blade) -> Blade:
         """Return the beam with the section asked for, by default its own."""
         kind = _shapes().get(self.section)
@@ -190,6 +165,44 @@ class SectionOptions:
             raise ValueError("--ratio is height over width: give it with a --section that has both")
         # With another material than the beam's, of which the blade knows none.
         return blade.with_shape(kind(ratio=self.ratio))
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Mesh:
+    """Discretization of the blade, as far as given.
+
+    Parameters
+    ----------
+    element
+        Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in
+        space space_cable, space_exact; or one's own, as module:Class.
+    elements
+        Number of elements, 16 unless given.
+    """
+
+    element: str | None = None
+    elements: Whole | None = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Discretization(Mesh):
+    """Discretization and integration of a run, as far as given.
+
+    Parameters
+    ----------
+    step
+        Step size of the integrator [s].
+    duration
+        End of the run [s].
+    frame
+        Coordinates of the model, inertial unless given.
+    """
+
+    step: Number | None = None
+    duration: Number | None = None
+    frame: Frame | None = None
 
 
 def option_of(kind: type[Load]) -> str:
@@ -210,17 +223,17 @@ _KINDS = {
 """Loads that have a response, by their fields; loads that need no size come last."""
 
 
+def one_of(loads: Sequence[Load]) -> Load:
+    """Return the load, where one is given."""
+    if len(loads) != 1:
+        *others, last = (f"--{option_of(kind)}" for kind in _KINDS.values())
+        got = " and ".join(f"--{option_of(type(one))}" for one in loads) or "none"
+        raise ValueError(f"give one load, {', '.join(others)} or {last}, got {got}")
+    return loads[0]
+
+
 class _Given:
     """Options, the loads' sizes; without one, a load has its default size."""
-
-    def one(self) -> Load:
-        """Return the load, where one is given."""
-        given = self.all(None)
-        if len(given) != 1:
-            *others, last = (f"--{option_of(kind)}" for kind in _KINDS.values())
-            got = " and ".join(f"--{option_of(type(one))}" for one in given) or "none"
-            raise ValueError(f"give one load, {', '.join(others)} or {last}, got {got}")
-        return given[0]
 
     def all(self, frequency: float | None) -> list[Load]:
         """Return the loads, harmonic ones at a frequency [rad/s]."""

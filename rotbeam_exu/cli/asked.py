@@ -1,0 +1,247 @@
+"""The request of a command as one value: its options, over a file, over the paper's values."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import wraps
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from analytic import Beam, Blade, Theory
+from analytic.loads import Load
+from analytic.warning import warn
+
+from ..files.beam_file import RunFile, load_run_file
+from ..files.beam_tables import THEORY, require_keys
+from ..runs.attributes import blade_attributes, theory_attributes
+from .motion import ChosenMotion, chosen_motion, refuse_rest
+from .options import (
+    Dampings,
+    Discretization,
+    Duration,
+    LoadFrequency,
+    Loads,
+    Mesh,
+    Omega,
+    RampTime,
+    SectionOptions,
+    SteadySpeed,
+    TheoryPairs,
+)
+
+if TYPE_CHECKING:
+    from ..fem.case import RunCase
+    from ..fem.elements import Formulation
+
+_USES: dict[str, tuple[str, Any, tuple[str, ...]]] = {
+    "omega": ("omega", Omega, ("motion.omega",)),
+    "speed": ("omega", SteadySpeed, ("motion.omega",)),
+    "ramp_time": ("ramp_time", RampTime, ("motion.ramp_time",)),
+    "duration": ("duration", Duration, ("numerics.duration",)),
+    "mesh": ("mesh", Mesh, ("numerics.element", "numerics.elements")),
+    "discretization": ("mesh", Discretization, ("numerics",)),
+    "section": ("section", SectionOptions, ()),
+    "damping": ("damping", Dampings, ()),
+    "load": ("loads", Loads, ()),
+    "loads": ("loads", Loads, ("loads",)),
+    "load_frequency": ("load_frequency", LoadFrequency, ()),
+    "theory": ("theory", TheoryPairs, ("theory",)),
+}
+"""Words for `asks`: parameter, its options, and the tables or keys of a file that they replace."""
+
+_PAPER = {"element": "cable", "elements": 16, "frame": "inertial"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """Blade, theory, loads and numbers that a command was asked for.
+
+    Parameters
+    ----------
+    config
+        The file, if one was given.
+    blade
+        The file's or the paper's blade, with section and damping of the options.
+    theory
+        The options' over the file's.
+    loads
+        Those of the options, or else those of the file.
+    typed
+        Options that were given, by name.
+    given
+        Numbers and names: options over [motion] and [numerics], over the paper's mesh.
+    """
+
+    config: Path | None
+    blade: Blade
+    theory: Theory
+    loads: Sequence[Load]
+    typed: Mapping[str, Any]
+    given: Mapping[str, Any]
+
+    @property
+    def omega(self) -> float:
+        """Rotation speed [rad/s], which is not guessed."""
+        if "omega" not in self.given:
+            raise ValueError(
+                "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"
+            )
+        return float(self.given["omega"])
+
+    @property
+    def motion(self) -> ChosenMotion:
+        """The spin-up, its end and step, completed by the paper's ratios to ω_0."""
+        names = "omega", "ramp_time", "duration", "step"
+        return chosen_motion(self.blade, **{n: self.given[n] for n in names if n in self.given})
+
+    @property
+    def mesh(self) -> str:
+        """Formulation and number of elements as part of a file's name."""
+        return f"{self.given['element'].rpartition(':')[2]}-{self.given['elements']}"
+
+    @property
+    def section(self) -> str:
+        """Shape and ratio of the section as part of a file's name."""
+        ratio = f"-{self.typed['ratio']:g}" if "ratio" in self.typed else ""
+        return f"{self.typed.get('section', 'given')}{ratio}"
+
+    def case(self, motion: ChosenMotion | None = None) -> RunCase:
+        """Return the case of a run of this motion, or of another one."""
+        from ..fem.case import RunCase
+
+        run, mesh = motion or self.motion, {n: self.given[n] for n in ("elements", "frame")}
+        refuse_rest(run.spin_up.omega)
+        return RunCase(
+            blade=self.blade, spin_up=run.spin_up, duration=run.duration, step=run.step,
+            element=element_of(self.given["element"]), loads=self.loads, **mesh,
+        )  # fmt: skip
+
+    def inputs(self, **more: Any) -> dict[str, Any]:
+        """Return the inputs of an answer: blade, theory and more."""
+        return {**blade_attributes(self.blade), **theory_attributes(self.theory), **more}
+
+
+def asks(*uses: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command the options that it names, and hand it an `Asked` in their place.
+
+    `uses` are words of `_USES`, and keys of a file that have no option, as "motion.omega". Of other
+    tables of a file the command uses nothing, and a file with one is refused.
+    """
+    words = [_USES[use] for use in uses if use in _USES]
+    keys = [*(use for use in uses if use not in _USES), *(key for _, _, of in words for key in of)]
+    titles = dict.fromkeys(key.partition(".")[0] for key in keys)
+    tables = " and ".join("[[loads]]" if title == "loads" else f"[{title}]" for title in titles)
+    config = Parameter(
+        help="TOML file with [beam] or [blade]"
+        + (f", and optionally {tables}; options given here replace its values" * bool(tables))
+        + ". Without a file: the paper's beam."
+    )
+    options = {name: kind for name, kind, _ in words}
+    options["config"] = Annotated[Path | None, config]
+
+    def asking(command: Callable[..., None]) -> Callable[..., None]:
+        @wraps(command)
+        def asked(*, config: Path | None = None, **arguments: Any) -> None:
+            mine = {name: arguments.pop(name) for name in options if name in arguments}
+            command(_asked(config, configured(config, *keys), mine), **arguments)
+
+        own = inspect.signature(command)
+        given = [
+            inspect.Parameter(
+                name, inspect.Parameter.KEYWORD_ONLY, annotation=kind,
+                default=kind() if isinstance(kind, type) else None,
+            )
+            for name, kind in options.items()
+        ]  # fmt: skip
+        _, *others = own.parameters.values()
+        vars(asked)["__signature__"] = own.replace(parameters=[*given, *others])
+        asked.__annotations__ = {**command.__annotations__, **options}
+        return asked
+
+    return asking
+
+
+def _asked(config: Path | None, file: RunFile, options: Mapping[str, Any]) -> Asked:
+    """Return options and a file as one value, or refuse them."""
+    flat: dict[str, Any] = {}
+    for name, value in options.items():
+        flat |= vars(value) if is_dataclass(value) else {name: value}
+    typed = {name: of for name, of in flat.items() if of is not None and of is not False}
+    blade = options.get("section", SectionOptions()).of(file.blade)
+    loads = options["loads"].all(flat.get("load_frequency")) if "loads" in options else ()
+    if flat.get("load_frequency", 0.0) is None and any(x.varied == "frequency" for x in loads):
+        raise ValueError("give the frequency of the load in rad/s with --load-frequency")
+    return Asked(
+        config=config,
+        blade=options.get("damping", Dampings()).on(blade),
+        theory=Theory(**{**file.theory, **_theory(typed.get("theory", ()))}),
+        loads=loads or file.loads,
+        typed=typed,
+        given={**_PAPER, **file.numerics, **file.motion, **typed},
+    )
+
+
+def _theory(pairs: Sequence[str]) -> dict[str, Any]:
+    """Return the arguments of a `Theory` in the pairs of --theory, which are lines of TOML."""
+    try:
+        told = tomllib.loads("\n".join(pairs))
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(
+            f"--theory takes key=value as in a file, as trapeze=false shear=0.3, got "
+            f"{' '.join(pairs)!r}: {error}"
+        ) from error
+    require_keys(told, THEORY, "--theory")
+    return told
+
+
+def configured(config: Path | None, *uses: str) -> RunFile:
+    """Return what a command uses of a TOML file; without one, the paper's beam and nothing else.
+
+    `uses` names tables, as "loads", or keys of a table, as "motion.omega". A table of which the
+    command uses nothing is refused; a warning names the other keys of a table that it uses.
+    """
+    file = RunFile(blade=Beam.reference()) if config is None else load_run_file(config)
+    kept: dict[str, Any] = {}
+    for name in (one.name for one in fields(file) if one.name not in ("blade", *uses)):
+        given = getattr(file, name)
+        keys = [use.removeprefix(f"{name}.") for use in uses if use.startswith(f"{name}.")]
+        if given and not keys:
+            title = f"[{name}]" if isinstance(given, Mapping) else f"[[{name}]]"
+            raise ValueError(
+                f"{config} has {title}, of which this command uses nothing: leave it out"
+            )
+        if spare := [key for key in given if key not in keys]:
+            warn(f"{config}: this command does not use {', '.join(spare)} of [{name}]")
+            kept[name] = {key: given[key] for key in keys if key in given}
+    return replace(file, **kept)
+
+
+def element_of(name: str) -> Formulation:
+    """Return the formulation of a name, or of one's own class as module:Class.
+
+    Only for names of the command line, whose user may run any code.
+    """
+    from ..fem.elements import Formulation, formulation
+
+    module, colon, kind = name.partition(":")
+    if not colon:
+        return formulation(name)
+    if (here := str(Path.cwd())) not in sys.path:
+        sys.path.append(here)  # where a sweep's workers find it, too
+    try:
+        cls = getattr(import_module(module), kind)
+        if not (isinstance(cls, type) and issubclass(cls, Formulation)):
+            raise TypeError("it is no class that inherits from Formulation")
+        return formulation(cls())
+    except (AttributeError, ImportError, TypeError) as error:
+        raise ValueError(
+            f"no element can be made of {name}: {error}; give module:Class, the module in this "
+            "folder or installed"
+        ) from error
