@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import sys
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import wraps
 from importlib import import_module
@@ -136,36 +136,37 @@ def asks(*uses: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """
     words = [_USES[use] for use in uses if use in _USES]
     keys = [*(use for use in uses if use not in _USES), *(key for _, _, of in words for key in of)]
-    titles = dict.fromkeys(key.partition(".")[0] for key in keys)
-    tables = " and ".join("[[loads]]" if title == "loads" else f"[{title}]" for title in titles)
-    config = Parameter(
-        help="TOML file with [beam] or [blade]"
-        + (f", and optionally {tables}; options given here replace its values" * bool(tables))
-        + ". Without a file: the paper's beam."
-    )
-    options = {name: kind for name, kind, _ in words}
-    options["config"] = Annotated[Path | None, config]
+    tables = dict.fromkeys(key.partition(".")[0] for key in keys)
+    options = [_option(name, kind) for name, kind, _ in words]
 
     def asking(command: Callable[..., None]) -> Callable[..., None]:
         @wraps(command)
         def asked(*, config: Path | None = None, **arguments: Any) -> None:
-            mine = {name: arguments.pop(name) for name in options if name in arguments}
+            mine = {one.name: arguments.pop(one.name, one.default) for one in options}
             command(_asked(config, configured(config, *keys), mine), **arguments)
 
         own = inspect.signature(command)
-        given = [
-            inspect.Parameter(
-                name, inspect.Parameter.KEYWORD_ONLY, annotation=kind,
-                default=kind() if isinstance(kind, type) else None,
-            )
-            for name, kind in options.items()
-        ]  # fmt: skip
         _, *others = own.parameters.values()
-        vars(asked)["__signature__"] = own.replace(parameters=[*given, *others])
-        asked.__annotations__ = {**command.__annotations__, **options}
+        signature = own.replace(parameters=[*options, _config(tables), *others])
+        vars(asked)["__signature__"] = signature
+        asked.__annotations__ = {n: of.annotation for n, of in signature.parameters.items()}
         return asked
 
     return asking
+
+
+def _option(name: str, kind: Any) -> inspect.Parameter:
+    """Return a parameter with its default, None or no option of a group."""
+    default = kind() if isinstance(kind, type) else None
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind)
+
+
+def _config(tables: Iterable[str]) -> inspect.Parameter:
+    """Return the parameter of the file, which tells the tables of a run that it may have."""
+    titles = ", ".join(f"[[{one}]]" if one == "loads" else f"[{one}]" for one in tables)
+    more = f", optionally {titles}; options given here replace its values" if titles else ""
+    text = f"TOML file with [beam] or [blade]{more}. Without a file: the paper's beam."
+    return _option("config", Annotated[Path | None, Parameter(help=text)])
 
 
 def _asked(config: Path | None, file: RunFile, options: Mapping[str, Any]) -> Asked:

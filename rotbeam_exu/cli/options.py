@@ -163,8 +163,9 @@ class SectionOptions:
             return blade if kind is None else blade.with_shape(kind())
         if kind is None or "ratio" not in (field.name for field in fields(kind)):
             raise ValueError("--ratio is height over width: give it with a --section that has both")
-        # With another material than the beam's, of which the blade knows none.
-        return blade.with_shape(kind(ratio=self.ratio))
+        # Of another material than a Beam's, as of a Blade, which knows none.
+        free = blade.with_hub_radius(blade.hub_radius)
+        return free.with_shape(kind(ratio=self.ratio))
 
 
 @Parameter(name="*")
