@@ -15,16 +15,16 @@ from analytic.input_checks import positive, whole_number
 from ..files.results import load
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
-from .asked import Asked, asks
 from .job import Flag, require_writable
 from .motion import chosen_times, slower_than_paper
 from .options import Number, Whole
 from .output import bar, print_text
+from .request import Request, uses
 
 
-@asks("speed", "ramp_time", "duration", "theory")
+@uses("speed", "ramp_time", "duration", "theory")
 def animate(
-    asked: Asked,
+    request: Request,
     *,
     rate: Whole = 20,
     beside: Literal["linear"] | None = None,
@@ -69,11 +69,11 @@ def animate(
     whole_number("rate", rate)
     kept = None if run is None else load(run)
     if kept is None:
-        blade, spin_up = asked.blade, asked.motion.spin_up
+        blade, spin_up = request.blade, request.motion.spin_up
         speed, ramp = spin_up.omega, spin_up.ramp_time
         usual = max(chosen_times(blade, 12.0)[0], 2.0 * ramp)
-        duration = positive("duration", asked.given.get("duration", usual), "s")
-    elif asked.typed or asked.config or beside:
+        duration = positive("duration", request.values.get("duration", usual), "s")
+    elif request.options or request.config or beside:
         raise ValueError(
             "--run shows a run as it is: leave out --omega, --ramp-time, --duration, --beside, "
             "--theory and --config"
@@ -104,7 +104,7 @@ def animate(
         points = np.linspace(0.0, blade.length, 41)
         with bar("integrating"):
             exact = spin_up_response(
-                blade, spin_up, times, tolerance=1e-5, points=points, theory=asked.theory
+                blade, spin_up, times, tolerance=1e-5, points=points, theory=request.theory
             )
             data = dataset_of(exact)
             if beside:

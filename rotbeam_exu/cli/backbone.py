@@ -11,12 +11,13 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import Blade
+from analytic.blade_checks import require_planar
 from analytic.warning import warn
 
-from .asked import Asked, asks
 from .job import Flag
 from .options import Amplitudes, Whole
 from .output import Format, bar, print_columns, print_note
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.free.orbits import Orbits
@@ -26,9 +27,9 @@ Refusal = tuple[str, str]
 """A model's name, and why it has no answer."""
 
 
-@asks("omega", "theory")
+@uses("omega", "theory")
 def backbone(
-    asked: Asked,
+    request: Request,
     *,
     amplitude: Amplitudes = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
     variant: str | None = None,
@@ -48,8 +49,8 @@ def backbone(
     amplitude
         Amplitudes over the length, one or several.
     variant
-        CI, CE, FrI, FrE, P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours. Without one, FrM and
-        the exact backbone.
+        CI, CE, FrI, FrE, P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours. Without one, the exact
+        backbone, and of a blade in its plane FrM.
     all_variants
         Every variant, one below the other.
     exact
@@ -68,21 +69,19 @@ def backbone(
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
     $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
-    blade, omega, theory = asked.blade, asked.omega, asked.theory
+    blade, omega, theory = request.blade, request.omega, request.theory
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
-    names = told or (["FrM"] if mode == "lag 1" else [])
+    if told:
+        require_planar(
+            blade, "the reduced models are of", "the exact backbone: leave the variants out"
+        )
+    names = told or (["FrM"] if mode == "lag 1" and blade.is_planar else [])
     exact = exact or not told
     if theory != analytic.Theory() and not exact:
         raise ValueError(f"{theory} is a theory of the exact beam: add --exact")
-    refused: list[Refusal] = []
-    models = []
-    for name in names:
-        try:
-            models.append(analytic.reduced_model(blade, omega, name))
-        except ValueError as error:
-            refused.append((name, str(error)))
+    models, refused = _reduced(blade, omega, names)
     if told and not models:
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
@@ -107,6 +106,19 @@ def backbone(
         warn(f"no answer: {sentence}")
     if failure:
         raise RuntimeError(failure)
+
+
+def _reduced(
+    blade: Blade, omega: float, names: list[str]
+) -> tuple[list[ReducedModel], list[Refusal]]:
+    """Return the models of the blade, and why it has no others."""
+    models, refused = [], []
+    for name in names:
+        try:
+            models.append(analytic.reduced_model(blade, omega, name))
+        except ValueError as error:
+            refused.append((name, str(error)))
+    return models, refused
 
 
 def _grouped(refused: list[Refusal]) -> list[str]:

@@ -12,8 +12,8 @@ from analytic import Blade, Theory
 from analytic.arrays import FloatArray, evaluated, in_units
 from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 
-from .asked import Asked, asks
 from .output import bar, formatted, print_columns, print_line, print_note
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.linear.space_modes import LinearModes
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 _COUNT = 6  # modes
 
 
-@asks("theory", "motion.omega")
-def blade(asked: Asked) -> None:
+@uses("theory", "motion.omega")
+def blade(request: Request) -> None:
     """Print mass, stiffness and first frequencies of a blade.
 
     The frequencies are at rest and at the speed of the file.
@@ -35,7 +35,7 @@ def blade(asked: Asked) -> None:
     $ rotbeam blade
     $ rotbeam blade --config beam.toml
     """
-    blade, theory, omega = asked.blade, asked.theory, asked.given.get("omega", 0.0)
+    blade, theory, omega = request.blade, request.theory, request.values.get("omega", 0.0)
     with bar("modes"):
         rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=theory)
         turning = {}

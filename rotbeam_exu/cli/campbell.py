@@ -12,19 +12,19 @@ from cyclopts import Parameter
 import analytic
 from analytic.input_checks import positive, rotation_speed, whole_number
 
-from .asked import Asked, asks
 from .job import Flag, Results
 from .motion import chosen_speeds
 from .options import Number, Whole
 from .output import bar, formatted, print_columns
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.linear.campbell import Campbell
 
 
-@asks("section", "theory", "motion.omega")
+@uses("section", "theory", "motion.omega")
 def campbell(
-    asked: Asked,
+    request: Request,
     *,
     omega_min: Number = 0.0,
     omega_max: Number | None = None,
@@ -68,20 +68,20 @@ def campbell(
     """
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
-    blade = asked.blade
-    usual = 2.0 * asked.given.get("omega", chosen_speeds(blade, 6.0)[0])
+    blade = request.blade
+    usual = 2.0 * request.values.get("omega", chosen_speeds(blade, 6.0)[0])
     highest = usual if omega_max is None else omega_max
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
     with bar("modes"):
-        diagram = analytic.campbell(blade, speeds, count, orders, theory=asked.theory)
+        diagram = analytic.campbell(blade, speeds, count, orders, theory=request.theory)
     if out is None:
         _print(diagram)
         return
     from ..datasets import dataset_of
 
     Results(out=out, force=force).job(
-        f"campbell-{asked.section}", dataset_of(diagram), show=lambda *_: _print(diagram),
+        f"campbell-{request.section}", dataset_of(diagram), show=lambda *_: _print(diagram),
         draw=lambda figures, _: figures.campbell(diagram, highest=frequency_max),
     )  # fmt: skip
 

@@ -8,19 +8,20 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from analytic import Blade
+from analytic.blade_checks import require_planar
 
 from .. import paper
 from ..fem.lazily import require_exudyn
-from .asked import Asked, asks
 from .job import Flag, require_writable, write_text
 from .motion import chosen_speeds, chosen_times, grid_motion
 from .options import Jobs, Workers
 from .output import print_text
+from .request import Request, uses
 
 
-@asks()
+@uses()
 def explore(
-    asked: Asked,
+    request: Request,
     *,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     cache: Path | None = None,
@@ -52,10 +53,11 @@ def explore(
 
     require_exudyn()
     if out is None:
-        out = Path(f"explorer-{asked.config.stem}.html" if asked.config else "explorer.html")
+        out = Path(f"explorer-{request.config.stem}.html" if request.config else "explorer.html")
     require_writable(out, force=force, ending=".html")
-    blade = asked.blade
-    options = _scaled(blade) if asked.config else {}
+    blade = request.blade
+    require_planar(blade, "the Explorer is of", "rotbeam animate, which films it in space")
+    options = _scaled(blade) if request.config else {}
     with Workers(cache=cache, jobs=jobs).counted("exact orbits and spin-ups") as how:
         data = explorer_data(blade, **how, **options)
     write_text(explorer_page(data), out)

@@ -10,6 +10,8 @@ from json import dumps
 from pathlib import Path
 from typing import Any
 
+from analytic.blade_checks import require_planar
+
 from ..report.document import Record, document
 from ..report.page import report_page
 from ..verification.cases import CASES, VERSION
@@ -22,9 +24,9 @@ from ..verification.outcomes import Finding, Outcome
 from ..verification.submission import Run, Submission
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
-from .asked import Asked, asks, element_of
 from .job import require_writable, write_text
 from .output import bar, counter, formatted, print_columns, print_note, print_text, print_written
+from .request import Request, element_of, uses
 
 _SHORT = {
     "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
@@ -148,8 +150,8 @@ def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
         print_note(f"{', '.join(one.case for one in alike)}: a usual mistake? {alike[0]}")
 
 
-@asks("motion", "numerics.duration", "numerics.step")
-def verify(asked: Asked, *, element: list[str] | None = None) -> None:
+@uses("motion", "numerics.duration", "numerics.step")
+def verify(request: Request, *, element: list[str] | None = None) -> None:
     """Judge elements by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
@@ -172,18 +174,20 @@ def verify(asked: Asked, *, element: list[str] | None = None) -> None:
     from ..verification.verify import verify as verification_of
 
     own = [formulation_entry(element_of(name)) for name in element or ()]
-    motion = asked.motion
-    entries = own or entries_at_hand()
-    if asked.config:
+    motion = request.motion
+    entries, mine = own or entries_at_hand(), dict[str, Any]()
+    if request.config:
+        remedy = "rotbeam reference, which is exact in space"
+        require_planar(request.blade, "verify has references of", remedy)
         entries = [replace(entry, step=motion.step) for entry in entries]
-    mine: dict[str, Any] = {"blade": asked.blade, "spin_up": motion.spin_up} if asked.config else {}
+        mine = {"blade": request.blade, "spin_up": motion.spin_up}
     found = []
     with counter("verifying") as progress:
         for entry in entries:
             found.append(verification_of(entry, duration=motion.duration, **mine))
             progress(len(found), len(entries))
     of_own = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
-    print_judgements(found, of_own if asked.config else "the paper's beam")
+    print_judgements(found, of_own if request.config else "the paper's beam")
 
 
 def print_judgements(found: Sequence[Judgement], about: str) -> None:

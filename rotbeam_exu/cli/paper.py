@@ -11,11 +11,11 @@ from ..fem.lazily import require_exudyn
 from ..files.results import writable_folder
 from ..lazily import xr
 from ..runs.attributes import blade_attributes
-from .asked import Asked, asks
 from .job import Results, refuse_to_replace
 from .motion import ChosenMotion, chosen_speeds, chosen_times, grid_motion
 from .options import Number, Workers, numbered
 from .output import formatted, print_columns, print_note
+from .request import Request, uses
 
 _SWEPT = (5, 14)  # figures whose data come from sweeps
 
@@ -90,9 +90,9 @@ def table(number: str, /) -> None:
             print_note(f"{mark}: {note}")
 
 
-@asks("motion")
+@uses("motion")
 def compare(
-    asked: Asked,
+    request: Request,
     *,
     amplitude: Number = 0.1,
     workers: Workers = Workers(),
@@ -116,16 +116,16 @@ def compare(
     from .. import comparison
 
     require_exudyn()
-    blade = asked.blade
+    blade = request.blade
     if not isinstance(blade, analytic.Beam):
         raise ValueError(
             "the paper's models, which compare needs, are for the uniform beam of [beam] only: for "
-            "a [blade] take rotbeam backbone --variant FrM --exact"
+            "a [blade] take rotbeam backbone"
         )
-    mine = blade_attributes(blade) if asked.config else {}
+    mine = blade_attributes(blade) if request.config else {}
     omegas = chosen_speeds(blade, *paper.SPEEDS)
     ramp_times = chosen_times(blade, *paper.RAMP_TIMES, digits=4)
-    motion, main = _even(grid_motion(blade, omegas, ramp_times)), asked.motion
+    motion, main = _even(grid_motion(blade, omegas, ramp_times)), request.motion
     models = comparison.model_budget(blade, omegas=omegas, amplitudes=(amplitude,))
     target = results.out / "budget_models.nc"
     refuse_to_replace(models.assign_attrs(mine), target, force=results.force)

@@ -11,16 +11,16 @@ from analytic.input_checks import positive, whole_number
 
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
-from .asked import Asked, asks
 from .job import Results
 from .motion import chosen_times
 from .options import Number, Whole
 from .output import counter, formatted, print_columns, print_note
+from .request import Request, uses
 
 
-@asks("speed", "mesh")
+@uses("speed", "mesh")
 def ramp(
-    asked: Asked,
+    request: Request,
     *,
     longest: Number | None = None,
     points: Whole = 9,
@@ -46,13 +46,13 @@ def ramp(
     """
     from .. import comparison
 
-    blade = asked.blade
+    blade = request.blade
     require_planar(blade, "ramp is for", "rotbeam reference, which has one ramp in space")
-    case = asked.case()
+    case = request.case()
     omega = case.omega
     longest = chosen_times(blade, 10.0)[0] if longest is None else positive("longest", longest)
     whole_number("finite-element-points", finite_element_points, least=0)
-    inputs = asked.inputs(
+    inputs = request.inputs(
         omega=omega, longest=longest, points=points, finite_element_points=finite_element_points,
         **{name: case.describe()[name] for name in ("element", "element_options", "elements")},
     )  # fmt: skip

@@ -12,18 +12,18 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
-from .asked import Asked, asks
 from .job import Results
 from .options import NoFigure, Number, Whole, one_of, option_of
 from .output import bar, formatted, print_columns, print_text
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.driven.forced_orbits import ForcedResponse
 
 
-@asks("omega", "load", "damping", "theory")
+@uses("omega", "load", "damping", "theory")
 def respond(
-    asked: Asked,
+    request: Request,
     *,
     first: Annotated[Number, Parameter(name="--from")],
     last: Annotated[Number, Parameter(name="--to")],
@@ -56,8 +56,8 @@ def respond(
     """
     from ..datasets import response_inputs
 
-    load, blade = one_of(asked.loads), asked.blade
-    told = {"damping_ratio", "external_damping"} & asked.typed.keys()  # perhaps as zero
+    load, blade = one_of(request.loads), request.blade
+    told = {"damping_ratio", "external_damping"} & request.options.keys()  # perhaps as zero
     if not told and not any(blade.unit.damping):
         raise ValueError(
             "the blade is undamped, and at resonance its response has no end: give "
@@ -65,24 +65,24 @@ def respond(
         )
     omega = None
     if load.varied == "frequency":
-        omega = asked.omega
-    elif "omega" in asked.typed:
+        omega = request.omega
+    elif "omega" in request.options:
         raise ValueError(
             f"under --{option_of(type(load))} the rotation speeds are those --from one --to "
             "another: leave --omega out"
         )
-    elif "omega" in asked.given:
-        warn(f"{asked.config}: under --{option_of(type(load))} omega of [motion] is not used")
+    elif "omega" in request.values:
+        warn(f"{request.config}: under --{option_of(type(load))} omega of [motion] is not used")
     if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
     frequencies = np.linspace(first, last, whole_number("points", points, least=2))
-    inputs = asked.inputs(
+    inputs = request.inputs(
         **response_inputs(blade, load, omega),
         **{"from": first, "to": last, "points": points, "functions": functions},
     )
 
     def computed() -> ForcedResponse:
-        how: Any = {"theory": asked.theory, "functions": functions}
+        how: Any = {"theory": request.theory, "functions": functions}
         with bar("following the curve"):
             if omega is None:
                 return analytic.forced_response(blade, frequencies, load, **how)

@@ -13,10 +13,10 @@ from analytic.warning import warn
 
 from ..lazily import xr
 from ..runs.check import energy_drift
-from .asked import Asked, asks
 from .job import Flag, Results
 from .options import NoFigure, Number, Whole
 from .output import bar, print_line
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.driven.response import SpinUpResponse
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     from ..verification.assessment import Assessment
 
 
-@asks("speed", "ramp_time", "discretization", "loads", "load_frequency", "damping")
+@uses("speed", "ramp_time", "discretization", "loads", "load_frequency", "damping")
 def run(
-    asked: Asked,
+    request: Request,
     *,
     stations: Whole | None = None,
     no_exact: Annotated[Flag, Parameter(name="--no-exact")] = False,
@@ -58,11 +58,11 @@ def run(
     from ..runs.oscillation import steady_oscillation
     from ..verification.assessment import assess
 
-    case = asked.case()
-    chosen = "" if "omega" in asked.given else ", the benchmark's"
+    case = request.case()
+    chosen = "" if "omega" in request.values else ", the benchmark's"
     count = 0 if stations is None else whole_number("stations", stations, least=2)
     kept = np.linspace(0.0, case.blade.length, count)
-    name = f"{asked.mesh}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
+    name = f"{request.mesh}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
     def computed() -> xr.Dataset:
         from ..fem.simulation import run_case
@@ -77,7 +77,7 @@ def run(
             raise RuntimeError(f"{error}; the run itself is in {results.out / name}.nc") from error
         with bar("exact frequencies"):
             found = assess(case, steady, exact=not no_exact)
-        _print_inputs(case, asked.given["element"], chosen)
+        _print_inputs(case, request.values["element"], chosen)
         _print_results(data, steady, found)
         return found
 
@@ -138,9 +138,9 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
     print_line("verdict", found.sentence)
 
 
-@asks("speed", "ramp_time", "duration", "theory")
+@uses("speed", "ramp_time", "duration", "theory")
 def reference(
-    asked: Asked,
+    request: Request,
     *,
     samples: Whole = 1501,
     tolerance: Number = 1e-8,
@@ -163,10 +163,10 @@ def reference(
     $ rotbeam reference
     $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
     """
-    motion, tolerance = asked.motion, positive("tolerance", tolerance)
+    motion, tolerance = request.motion, positive("tolerance", tolerance)
     samples = whole_number("samples", samples, least=2)
     spin_up = motion.spin_up
-    inputs = asked.inputs(
+    inputs = request.inputs(
         omega=spin_up.omega, ramp_time=spin_up.ramp_time, duration=motion.duration,
         samples=samples, tolerance=tolerance,
     )  # fmt: skip
@@ -175,7 +175,7 @@ def reference(
     def computed() -> SpinUpResponse:
         with bar("integrating"):
             return analytic.spin_up_response(
-                asked.blade, spin_up, times, tolerance=tolerance, theory=asked.theory
+                request.blade, spin_up, times, tolerance=tolerance, theory=request.theory
             )
 
     name = f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"

@@ -13,10 +13,10 @@ from analytic.input_checks import not_negative
 
 from ..files.result_tables import parts
 from ..lazily import xr
-from .asked import Asked, asks
 from .job import Results
 from .options import Amplitudes, Number
 from .output import bar, formatted, print_columns, print_text
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.free.stability_limit import StabilityLimit
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
 
-@asks("omega", "section", "theory")
+@uses("omega", "section", "theory")
 def stability(
-    asked: Asked,
+    request: Request,
     *,
     amplitude: Amplitudes = _AMPLITUDES,
     mode: str = "lag 1",
@@ -57,10 +57,8 @@ def stability(
     $ rotbeam stability --omega 2 --section rectangle --damping-ratio 0.005
     """
     not_negative("damping-ratio", damping_ratio)
-    blade, omega = asked.blade, asked.omega
-    require_planar(
-        blade, "planar motion is of", "rotbeam backbone --exact, whose orbits are in space"
-    )
+    blade, omega = request.blade, request.omega
+    require_planar(blade, "planar motion is of", "rotbeam backbone, whose orbits are in space")
     if blade.section.out_of_plane is None:
         raise ValueError(
             "the section out of the plane is unknown: give --section rectangle or --section tube, "
@@ -68,8 +66,8 @@ def stability(
         )
     amplitudes = sorted(set(amplitude))
     digits = " ".join(f"{a:.17g}" for a in amplitudes)
-    inputs = asked.inputs(omega=omega, mode=mode, amplitudes=digits, damping_ratio=damping_ratio)
-    theory = asked.theory
+    inputs = request.inputs(omega=omega, mode=mode, amplitudes=digits, damping_ratio=damping_ratio)
+    theory = request.theory
 
     def computed() -> tuple[GrowthOutOfPlane, StabilityLimit, xr.Dataset]:
         with bar("growth out of the plane"):
@@ -77,13 +75,13 @@ def stability(
                 blade, omega, mode, largest=amplitudes[-1], damping=damping_ratio, theory=theory
             )
             orbits = analytic.periodic_orbits(
-                undamped(blade), omega, amplitudes, mode, theory=asked.theory
+                undamped(blade), omega, amplitudes, mode, theory=request.theory
             )
             found = orbits.out_of_plane(damping_ratio, blade_damping=blade.damping)
         return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 
     results.job(
-        f"stability-{asked.section}-omega-{omega:g}-{mode.replace(' ', '-')}", inputs, computed,
+        f"stability-{request.section}-omega-{omega:g}-{mode.replace(' ', '-')}", inputs, computed,
         lambda found, _: _print(*found[:2]),
         table=lambda data: parts(data)["growth_rate"],
         draw=lambda figures, data: figures.planar_stability(data),

@@ -12,16 +12,16 @@ from analytic.warning import warn
 
 from .. import paper
 from ..lazily import xr
-from .asked import Asked, asks
 from .job import Flag, Results
 from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
 from .options import Number, Numbers, Whole, Workers
 from .output import formatted, print_columns, print_line, print_note, print_text
+from .request import Request, uses
 
 
-@asks("motion", "discretization", "loads", "load_frequency", "damping")
+@uses("motion", "discretization", "loads", "load_frequency", "damping")
 def sweep(
-    asked: Asked,
+    request: Request,
     *,
     omega: Numbers = None,
     ramp_time: Numbers = None,
@@ -49,7 +49,7 @@ def sweep(
     """
     from ..sweeps.grid import sweep as run_sweep
 
-    blade, given = asked.blade, asked.given
+    blade, given = request.blade, request.values
     omegas, ramp_times = omega, ramp_time
     if omegas is None:
         omegas = [given["omega"]] if "omega" in given else chosen_speeds(blade, *paper.SPEEDS)
@@ -61,10 +61,10 @@ def sweep(
         blade, omegas, ramp_times, duration=given.get("duration"), step=given.get("step")
     )
     count = len(omegas) * len(ramp_times)
-    one = asked.case(motion)
+    one = request.case(motion)
 
     def computed() -> xr.Dataset:
-        if asked.config is not None:
+        if request.config is not None:
             speeds, times = (", ".join(f"{x:g}" for x in of) for of in (omegas, ramp_times))
             print_text(f"ω = {speeds} rad/s, T = {times} s (by default the benchmark's ω/ω_0)")
         with workers.counted("spin-ups") as how:
@@ -74,7 +74,7 @@ def sweep(
                 loads=one.loads, on_error="record", **how,
             )  # fmt: skip
 
-    name, grid = f"sweep-{asked.mesh}", {"omega": omegas, "ramp_time": ramp_times}
+    name, grid = f"sweep-{request.mesh}", {"omega": omegas, "ramp_time": ramp_times}
     failed = results.job(name, {**one.describe(), **grid}, computed, _print)
     if failed:
         raise RuntimeError(
@@ -110,9 +110,9 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
     return sum(map(len, failed.values()))
 
 
-@asks("speed", "ramp_time", "discretization", "loads", "load_frequency", "damping")
+@uses("speed", "ramp_time", "discretization", "loads", "load_frequency", "damping")
 def converge(
-    asked: Asked,
+    request: Request,
     *,
     tolerance: Number = 1e-4,
     count: Whole = 3,
@@ -142,7 +142,7 @@ def converge(
     """
     from .. import comparison
 
-    case = asked.case()
+    case = request.case()
     whole_number("elements", case.elements, least=2)
     whole_number("count", count)
     inputs = {**case.describe(), "tolerance": positive("tolerance", tolerance)}
@@ -153,7 +153,7 @@ def converge(
         with workers.counted(pieces, pieces) as how:
             return comparison.refinement(case, count=count, tolerance=tolerance, exact=exact, **how)
 
-    name = f"converge-{asked.mesh}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
+    name = f"converge-{request.mesh}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
     results.job(name, inputs, computed, _print_errors)
 
 

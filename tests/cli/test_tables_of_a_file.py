@@ -9,8 +9,8 @@ import pytest
 
 import analytic
 from rotbeam_exu import comparison
-from rotbeam_exu.cli import _COMMANDS, animate, app, asked
-from rotbeam_exu.cli.asked import Asked
+from rotbeam_exu.cli import _COMMANDS, animate, app
+from rotbeam_exu.cli import request as room
 from rotbeam_exu.cli.job import Results
 from rotbeam_exu.fem.elements import FORMULATIONS
 from rotbeam_exu.files.beam_tables import _DOCUMENT
@@ -52,7 +52,7 @@ class Noted(dict):
         return super().get(key, *default)
 
 
-class NotedRequest(Asked):
+class NotedRequest(room.Request):
     """The request of a command that notes in `read` what is taken of it."""
 
     read: set
@@ -75,14 +75,14 @@ def test_every_table_is_tried():
 @pytest.mark.parametrize("table", TABLES)
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_command_uses_or_names_all_of_a_table(call, tmp_path, monkeypatch, command, table):
-    known, read = asked._asked, set()
+    known, read = room._request, set()
 
     def noted(*given):
         request = vars(known(*given))
-        return NotedRequest(**{**request, "given": Noted(request["given"], read)})
+        return NotedRequest(**{**request, "values": Noted(request["values"], read)})
 
     monkeypatch.setattr(NotedRequest, "read", read, raising=False)
-    monkeypatch.setattr(asked, "_asked", noted)
+    monkeypatch.setattr(room, "_request", noted)
     for place, name in (
         (Results, "job"), (analytic, "campbell"), (analytic, "reduced_model"),
         (animate, "spin_up_response"), (verify, "verify"), (comparison, "figure_14"),

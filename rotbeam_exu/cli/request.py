@@ -54,13 +54,13 @@ _USES: dict[str, tuple[str, Any, tuple[str, ...]]] = {
     "load_frequency": ("load_frequency", LoadFrequency, ()),
     "theory": ("theory", TheoryPairs, ("theory",)),
 }
-"""Words for `asks`: parameter, its options, and the tables or keys of a file that they replace."""
+"""Words for `uses`: parameter, its options, and the tables or keys of a file that they replace."""
 
 _PAPER = {"element": "cable", "elements": 16, "frame": "inertial"}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Asked:
+class Request:
     """Blade, theory, loads and numbers that a command was asked for.
 
     Parameters
@@ -73,9 +73,9 @@ class Asked:
         The options' over the file's.
     loads
         Those of the options, or else those of the file.
-    typed
+    options
         Options that were given, by name.
-    given
+    values
         Numbers and names: options over [motion] and [numerics], over the paper's mesh.
     """
 
@@ -83,44 +83,44 @@ class Asked:
     blade: Blade
     theory: Theory
     loads: Sequence[Load]
-    typed: Mapping[str, Any]
-    given: Mapping[str, Any]
+    options: Mapping[str, Any]
+    values: Mapping[str, Any]
 
     @property
     def omega(self) -> float:
         """Rotation speed [rad/s], which is not guessed."""
-        if "omega" not in self.given:
+        if "omega" not in self.values:
             raise ValueError(
                 "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"
             )
-        return float(self.given["omega"])
+        return float(self.values["omega"])
 
     @property
     def motion(self) -> ChosenMotion:
         """The spin-up, its end and step, completed by the paper's ratios to ω_0."""
         names = "omega", "ramp_time", "duration", "step"
-        return chosen_motion(self.blade, **{n: self.given[n] for n in names if n in self.given})
+        return chosen_motion(self.blade, **{n: self.values[n] for n in names if n in self.values})
 
     @property
     def mesh(self) -> str:
         """Formulation and number of elements as part of a file's name."""
-        return f"{self.given['element'].rpartition(':')[2]}-{self.given['elements']}"
+        return f"{self.values['element'].rpartition(':')[2]}-{self.values['elements']}"
 
     @property
     def section(self) -> str:
         """Shape and ratio of the section as part of a file's name."""
-        ratio = f"-{self.typed['ratio']:g}" if "ratio" in self.typed else ""
-        return f"{self.typed.get('section', 'given')}{ratio}"
+        ratio = f"-{self.options['ratio']:g}" if "ratio" in self.options else ""
+        return f"{self.options.get('section', 'given')}{ratio}"
 
     def case(self, motion: ChosenMotion | None = None) -> RunCase:
         """Return the case of a run of this motion, or of another one."""
         from ..fem.case import RunCase
 
-        run, mesh = motion or self.motion, {n: self.given[n] for n in ("elements", "frame")}
+        run, mesh = motion or self.motion, {n: self.values[n] for n in ("elements", "frame")}
         refuse_rest(run.spin_up.omega)
         return RunCase(
             blade=self.blade, spin_up=run.spin_up, duration=run.duration, step=run.step,
-            element=element_of(self.given["element"]), loads=self.loads, **mesh,
+            element=element_of(self.values["element"]), loads=self.loads, **mesh,
         )  # fmt: skip
 
     def inputs(self, **more: Any) -> dict[str, Any]:
@@ -128,31 +128,31 @@ class Asked:
         return {**blade_attributes(self.blade), **theory_attributes(self.theory), **more}
 
 
-def asks(*uses: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command the options that it names, and hand it an `Asked` in their place.
+def uses(*names: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command the options that it names, and hand it a `Request` in their place.
 
-    `uses` are words of `_USES`, and keys of a file that have no option, as "motion.omega". Of other
-    tables of a file the command uses nothing, and a file with one is refused.
+    `names` are words of `_USES`, and keys of a file that have no option, as "motion.omega". Of
+    other tables of a file the command uses nothing, and a file with one is refused.
     """
-    words = [_USES[use] for use in uses if use in _USES]
-    keys = [*(use for use in uses if use not in _USES), *(key for _, _, of in words for key in of)]
+    words = [_USES[use] for use in names if use in _USES]
+    keys = [*(use for use in names if use not in _USES), *(key for _, _, of in words for key in of)]
     tables = dict.fromkeys(key.partition(".")[0] for key in keys)
     options = [_option(name, kind) for name, kind, _ in words]
 
-    def asking(command: Callable[..., None]) -> Callable[..., None]:
+    def wrapped(command: Callable[..., None]) -> Callable[..., None]:
         @wraps(command)
-        def asked(*, config: Path | None = None, **arguments: Any) -> None:
+        def with_request(*, config: Path | None = None, **arguments: Any) -> None:
             mine = {one.name: arguments.pop(one.name, one.default) for one in options}
-            command(_asked(config, configured(config, *keys), mine), **arguments)
+            command(_request(config, _configured(config, keys), mine), **arguments)
 
         own = inspect.signature(command)
         _, *others = own.parameters.values()
         signature = own.replace(parameters=[*options, _config(tables), *others])
-        vars(asked)["__signature__"] = signature
-        asked.__annotations__ = {n: of.annotation for n, of in signature.parameters.items()}
-        return asked
+        vars(with_request)["__signature__"] = signature
+        with_request.__annotations__ = {n: of.annotation for n, of in signature.parameters.items()}
+        return with_request
 
-    return asking
+    return wrapped
 
 
 def _option(name: str, kind: Any) -> inspect.Parameter:
@@ -169,7 +169,7 @@ def _config(tables: Iterable[str]) -> inspect.Parameter:
     return _option("config", Annotated[Path | None, Parameter(help=text)])
 
 
-def _asked(config: Path | None, file: RunFile, options: Mapping[str, Any]) -> Asked:
+def _request(config: Path | None, file: RunFile, options: Mapping[str, Any]) -> Request:
     """Return options and a file as one value, or refuse them."""
     flat: dict[str, Any] = {}
     for name, value in options.items():
@@ -179,13 +179,13 @@ def _asked(config: Path | None, file: RunFile, options: Mapping[str, Any]) -> As
     loads = options["loads"].all(flat.get("load_frequency")) if "loads" in options else ()
     if flat.get("load_frequency", 0.0) is None and any(x.varied == "frequency" for x in loads):
         raise ValueError("give the frequency of the load in rad/s with --load-frequency")
-    return Asked(
+    return Request(
         config=config,
         blade=options.get("damping", Dampings()).on(blade),
         theory=Theory(**{**file.theory, **_theory(typed.get("theory", ()))}),
         loads=loads or file.loads,
-        typed=typed,
-        given={**_PAPER, **file.numerics, **file.motion, **typed},
+        options=typed,
+        values={**_PAPER, **file.numerics, **file.motion, **typed},
     )
 
 
@@ -202,11 +202,11 @@ def _theory(pairs: Sequence[str]) -> dict[str, Any]:
     return told
 
 
-def configured(config: Path | None, *uses: str) -> RunFile:
-    """Return what a command uses of a TOML file; without one, the paper's beam and nothing else.
+def _configured(config: Path | None, uses: Sequence[str]) -> RunFile:
+    """Return the tables and keys of a file that a command uses; without one, the paper's beam.
 
-    `uses` names tables, as "loads", or keys of a table, as "motion.omega". A table of which the
-    command uses nothing is refused; a warning names the other keys of a table that it uses.
+    A table of which the command uses nothing is refused; a warning names the other keys of a table
+    that it uses.
     """
     file = RunFile(blade=Beam.reference()) if config is None else load_run_file(config)
     kept: dict[str, Any] = {}
