@@ -6,7 +6,7 @@ import inspect
 import sys
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import wraps
 from importlib import import_module
 from pathlib import Path
@@ -19,42 +19,31 @@ from analytic.loads import Load
 from analytic.warning import warn
 
 from ..files.beam_file import RunFile, load_run_file
-from ..files.beam_tables import THEORY, require_keys
+from ..files.beam_tables import NUMERICS, THEORY, require_keys
 from ..runs.attributes import blade_attributes, theory_attributes
 from .motion import ChosenMotion, chosen_motion, refuse_rest
-from .options import (
-    Dampings,
-    Discretization,
-    Duration,
-    LoadFrequency,
-    Loads,
-    Mesh,
-    Omega,
-    RampTime,
-    SectionOptions,
-    SteadySpeed,
-    TheoryPairs,
-)
+from .options import KINDS, OPTIONS, blade_of, loads_of
 
 if TYPE_CHECKING:
     from ..fem.case import RunCase
     from ..fem.elements import Formulation
 
-_USES: dict[str, tuple[str, Any, tuple[str, ...]]] = {
-    "omega": ("omega", Omega, ("motion.omega",)),
-    "speed": ("omega", SteadySpeed, ("motion.omega",)),
-    "ramp_time": ("ramp_time", RampTime, ("motion.ramp_time",)),
-    "duration": ("duration", Duration, ("numerics.duration",)),
-    "mesh": ("mesh", Mesh, ("numerics.element", "numerics.elements")),
-    "discretization": ("mesh", Discretization, ("numerics",)),
-    "section": ("section", SectionOptions, ()),
-    "damping": ("damping", Dampings, ()),
-    "load": ("loads", Loads, ()),
-    "loads": ("loads", Loads, ("loads",)),
-    "load_frequency": ("load_frequency", LoadFrequency, ()),
-    "theory": ("theory", TheoryPairs, ("theory",)),
+_GROUPS: dict[str, tuple[str, ...]] = {
+    "mesh": ("element", "elements"),
+    "discretization": ("element", "elements", "step", "duration", "frame"),
+    "section": ("section", "ratio"),
+    "load": (*KINDS,),
+    "loads": (*KINDS, "load_frequency"),
+    "damping": ("damping_ratio", "external_damping"),
 }
-"""Words for `uses`: parameter, its options, and the tables or keys of a file that they replace."""
+"""Words for `uses` that stand for several options."""
+
+_KEYS = {
+    "omega": "motion.omega", "speed": "motion.omega", "ramp_time": "motion.ramp_time",
+    "load_frequency": "loads", "theory": "theory",
+    **{key: f"numerics.{key}" for key in NUMERICS.optional},
+}  # fmt: skip
+"""Tables or keys of a file that options replace."""
 
 _PAPER = {"element": "cable", "elements": 16, "frame": "inertial"}
 
@@ -116,6 +105,9 @@ class Request:
         """Return the case of a run of this motion, or of another one."""
         from ..fem.case import RunCase
 
+        harmonic = any(load.varied == "frequency" for load in loads_of(self.options))
+        if harmonic and "load_frequency" not in self.options:
+            raise ValueError("give the frequency of the load in rad/s with --load-frequency")
         run, mesh = motion or self.motion, {n: self.values[n] for n in ("elements", "frame")}
         refuse_rest(run.spin_up.omega)
         return RunCase(
@@ -131,23 +123,25 @@ class Request:
 def uses(*names: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Give a command the options that it names, and hand it a `Request` in their place.
 
-    `names` are words of `_USES`, and keys of a file that have no option, as "motion.omega". Of
-    other tables of a file the command uses nothing, and a file with one is refused.
+    `names` are options, words of `_GROUPS`, and keys of a file that have no option, as
+    "motion.omega". Of other tables of a file the command uses nothing, and a file with one is
+    refused.
     """
-    words = [_USES[use] for use in names if use in _USES]
-    keys = [*(use for use in names if use not in _USES), *(key for _, _, of in words for key in of)]
+    words = [word for name in names for word in _GROUPS.get(name, (name,))]
+    keys = [_KEYS.get(word, word) for word in words if word in _KEYS or word not in OPTIONS]
     tables = dict.fromkeys(key.partition(".")[0] for key in keys)
-    options = [_option(name, kind) for name, kind, _ in words]
+    options = [_option(word, OPTIONS[word]) for word in words if word in OPTIONS]
+    options.append(_config(tables))
 
     def wrapped(command: Callable[..., None]) -> Callable[..., None]:
         @wraps(command)
         def with_request(*, config: Path | None = None, **arguments: Any) -> None:
-            mine = {one.name: arguments.pop(one.name, one.default) for one in options}
+            mine = {word: arguments.pop(word) for word in words if word in arguments}
             command(_request(config, _configured(config, keys), mine), **arguments)
 
         own = inspect.signature(command)
         _, *others = own.parameters.values()
-        signature = own.replace(parameters=[*options, _config(tables), *others])
+        signature = own.replace(parameters=[*options, *others])
         vars(with_request)["__signature__"] = signature
         with_request.__annotations__ = {n: of.annotation for n, of in signature.parameters.items()}
         return with_request
@@ -156,9 +150,7 @@ def uses(*names: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
 
 
 def _option(name: str, kind: Any) -> inspect.Parameter:
-    """Return a parameter with its default, None or no option of a group."""
-    default = kind() if isinstance(kind, type) else None
-    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind)
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=kind)
 
 
 def _config(tables: Iterable[str]) -> inspect.Parameter:
@@ -169,23 +161,18 @@ def _config(tables: Iterable[str]) -> inspect.Parameter:
     return _option("config", Annotated[Path | None, Parameter(help=text)])
 
 
-def _request(config: Path | None, file: RunFile, options: Mapping[str, Any]) -> Request:
+def _request(config: Path | None, file: RunFile, arguments: Mapping[str, Any]) -> Request:
     """Return options and a file as one value, or refuse them."""
-    flat: dict[str, Any] = {}
-    for name, value in options.items():
-        flat |= vars(value) if is_dataclass(value) else {name: value}
-    typed = {name: of for name, of in flat.items() if of is not None and of is not False}
-    blade = options.get("section", SectionOptions()).of(file.blade)
-    loads = options["loads"].all(flat.get("load_frequency")) if "loads" in options else ()
-    if flat.get("load_frequency", 0.0) is None and any(x.varied == "frequency" for x in loads):
-        raise ValueError("give the frequency of the load in rad/s with --load-frequency")
+    options = {name: of for name, of in arguments.items() if of is not None and of is not False}
+    if "speed" in options:
+        options["omega"] = options.pop("speed")
     return Request(
         config=config,
-        blade=options.get("damping", Dampings()).on(blade),
-        theory=Theory(**{**file.theory, **_theory(typed.get("theory", ()))}),
-        loads=loads or file.loads,
-        options=typed,
-        values={**_PAPER, **file.numerics, **file.motion, **typed},
+        blade=blade_of(file.blade, options),
+        theory=Theory(**{**file.theory, **_theory(options.get("theory", ()))}),
+        loads=loads_of(options) or file.loads,
+        options=options,
+        values={**_PAPER, **file.numerics, **file.motion, **options},
     )
 
 

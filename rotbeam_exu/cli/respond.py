@@ -40,8 +40,8 @@ def respond(
     Parameters
     ----------
     first
-        Drive frequency at which the curve begins [rad/s]; under gravity the rotation speed, for it
-        goes around once a turn.
+        Drive frequency at which the curve begins [rad/s]; under gravity, which goes around once a
+        turn, the rotation speed, in place of --omega.
     last
         Drive frequency at which it ends [rad/s].
     points
