@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..verification.assessment import Assessment
 
 
-@uses("speed", "ramp_time", "discretization", "loads", "load_frequency", "damping")
+@uses("speed", "ramp_time", "discretization", "loads", "damping")
 def run(
     request: Request,
     *,

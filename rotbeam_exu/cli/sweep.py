@@ -19,7 +19,7 @@ from .output import formatted, print_columns, print_line, print_note, print_text
 from .request import Request, uses
 
 
-@uses("motion", "discretization", "loads", "load_frequency", "damping")
+@uses("motion", "discretization", "loads", "damping")
 def sweep(
     request: Request,
     *,
@@ -110,7 +110,7 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
     return sum(map(len, failed.values()))
 
 
-@uses("speed", "ramp_time", "discretization", "loads", "load_frequency", "damping")
+@uses("speed", "ramp_time", "discretization", "loads", "damping")
 def converge(
     request: Request,
     *,

@@ -58,7 +58,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("verify --config ../stations.toml", "verify has references of a straight blade in its"),
         (
             "backbone --omega 1 --variant FrM --config ../stations.toml",
-            "and leave the variants out",
+            ": leave the variants out",
         ),
         ("explore --config ../motion.toml", "has [motion], of which this command uses nothing"),
         ("run --tip-force 1", "with --load-frequency"),
