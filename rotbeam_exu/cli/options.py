@@ -196,7 +196,7 @@ def blade_of(blade: Blade, options: Mapping[str, Any]) -> Blade:
     if ratio is not None:
         if shape is None or "ratio" not in (field.name for field in fields(shape)):
             raise ValueError("--ratio is height over width: give it with a --section that has both")
-        # Of another material than a Beam's, as of a Blade, which knows none.
+        # Of another material than a beam's: what is set on a hub is a Blade, whose area is free.
         blade = blade.with_hub_radius(blade.hub_radius).with_shape(shape(ratio=ratio))
     elif shape is not None:
         blade = blade.with_shape(shape())
