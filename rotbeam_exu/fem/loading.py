@@ -51,7 +51,8 @@ class Loading:
         size, per_node = mass.shape[0], model.angles.size
         of_length = sparse.csr_array(mass.shape)
         if external or any(onto == "length" for _, onto in forces):
-            light = replace(blade, section=blade.section.of_unit_mass(), point_masses=())
+            section = blade.section.of_unit_mass()
+            light = replace(blade.with_section(section), point_masses=())
             of_length = mass_matrix(model, light, elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
         acted_on = {"mass": mass, "length": of_length, "tip": at_tip}

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-from analytic.blade_checks import require_blade, require_planar
 
 from analytic import Blade
 from analytic.arrays import FloatArray
+from analytic.blade_checks import require_blade, require_planar
 from analytic.description import Described
 from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.input_checks import finite_number, positive
@@ -215,10 +215,9 @@ class Formulation(Described, abstract=True):
     def require_section(self, blade: Blade) -> None:
         """Refuse a blade whose line or section the element does not model."""
         require_blade(blade)
-        whole = blade
-        line, table = whole.line, whole.section.at_stations
+        table = blade.section.at_stations
         remedy = "element='space_exact', on the command line --element space_exact"
-        if line.kinks or whole.point_masses:
+        if blade.line.kinks or blade.point_masses:
             remedy = "analytic.spin_up_response, or on the command line rotbeam reference"
         if table:
             raise ValueError(
