@@ -157,6 +157,10 @@ class Section(Described):
         told = self.rotary_inertia
         return profiles if told is None else profiles | {"rotary_inertia": told}
 
+    def of_unit_mass(self) -> Section:
+        """Return the section with one unit of mass per length on its line, and no inertia."""
+        return replace(self, mass_per_length=1.0, rotary_inertia=0.0)
+
     def in_units(self, length: float, mass: float, time: float) -> Section:
         """Return the section in units of length [m], mass [kg] and time [s]."""
         force = mass * (length / time) ** 2 / length

@@ -6,7 +6,7 @@ blade, 2 along the chord and 3 along the thickness of the section.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Literal, Never, get_args
 
@@ -262,6 +262,11 @@ class StationSection(Section):
     def inertia_against_torsion(self) -> Profile:
         """Inertia about the line at the stations [kg m]."""
         return profile_at(self.x, self._arrays[1, :, 3, 3])
+
+    def of_unit_mass(self) -> StationSection:
+        """Return the section with one unit of mass per length on its line, and no inertia."""
+        one = nested(np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])[None])
+        return replace(self, mass=one * len(self.x))
 
     def in_units(self, length: float, mass: float, time: float) -> StationSection:
         """Return the section in units of length [m], mass [kg] and time [s]."""

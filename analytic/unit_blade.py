@@ -45,7 +45,7 @@ class UnitBlade:
     @cached_property
     def panels(self) -> FloatArray:
         """Ends of the panels between point masses, at which forces jump, 0 to 1."""
-        return _some(_apart(position for position, _, _ in self.masses), _MOST_PANELS)
+        return _some(apart(position for position, _, _ in self.masses), _MOST_PANELS)
 
     @property
     def profiles(self) -> tuple[Profile, ...]:
@@ -56,7 +56,7 @@ class UnitBlade:
     def cells(self) -> FloatArray:
         """Ends of the cells on which the section is smooth and nowhere steep, 0 to 1."""
         kinks = [x for profile in self.profiles for x in stations(profile)]
-        ends = _apart([*kinks, *self.cuts, *(position for position, _, _ in self.masses)])
+        ends = apart([*kinks, *self.cuts, *(position for position, _, _ in self.masses)])
         ends = np.union1d(_some(ends, _MOST_CELLS), self.panels)
         return np.array([0.0, *(x for a, b in pairwise(ends) for x in self._gentle(a, b))])
 
@@ -127,10 +127,10 @@ class UnitBlade:
         return np.append(x, lumped[:, 0]), np.append(weights * evaluated(along, x), lumped[:, kind])
 
 
-def _apart(inner: Iterable[float]) -> FloatArray:
-    """Return 0, 1 and the values between them, ascending; equal neighbors become one."""
-    ends = sorted({0.0, 1.0} | {x for x in inner if _SAME < x < 1.0 - _SAME})
-    return np.array([x for x, y in zip(ends, [-1.0, *ends], strict=False) if x - y > _SAME])
+def apart(inner: Iterable[float], least: float = _SAME) -> FloatArray:
+    """Return 0, 1 and the values between them, ascending; neighbors less apart become one."""
+    ends = sorted({0.0, 1.0} | {x for x in inner if least < x < 1.0 - least})
+    return np.array([x for x, y in zip(ends, [-1.0, *ends], strict=False) if x - y > least])
 
 
 def _some(ends: FloatArray, most: int) -> FloatArray:

@@ -103,7 +103,7 @@ def refinement(
     runs = converged(elements, steps, q / scale, noise=FLOOR, declared=declared)
     off, apart = np.full(len(q), math.nan), np.full(len(modes), math.nan)
     if exact:
-        theory = case.model.theory
+        theory = case.model.theory_of(case.blade)
         # Else flap, lag and torsion would have to be sorted.
         if not case.model.leaves_plane or lives_in_space(case.blade):
             true = driven_modes(case.blade, case.omega, len(modes), theory=theory).frequencies

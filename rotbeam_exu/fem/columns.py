@@ -59,19 +59,18 @@ def columns(
     )
     relative = absolute - setting * rate[:, None, None] * model.spun(coordinates)
     # The lines of the nodes, by the axes of the clamp.
-    frame = model.line_frame(blade)
-    axis, moving = (e[..., : model.dimensions] @ frame for e in (coordinates, relative))
+    frame, arms = model.line_frame(blade), model.arms(blade, case.elements)
+    line, line_rates = model.line(arms, coordinates), model.line(arms, coordinates, relative)
+    axis, moving = (e[..., : model.dimensions] @ frame for e in (line, line_rates))
     # Out of the plane of rotation the deflection has a share that is not seen there.
-    seen = coordinates[:, -1, :2] @ [1.0, 1j * setting] * np.exp(1j * angle)
-    reference = trajectory.reference[0]
-    off = coordinates[:, 0] - reference
-    strain = np.abs(model.axial_strain(blade, coordinates)).max(axis=1)
+    seen = line[:, -1, :2] @ [1.0, 1j * setting] * np.exp(1j * angle)
+    off = coordinates[:, 0] - trajectory.reference[0]
     values = {
         "q": (axis[:, -1, 1], "tip displacement q [m]"),
         "q_dot": (moving[:, -1, 1], "tip velocity dq/dt [m/s]"),
     }
     if space:
-        tip = axis[:, -1, 2] - (reference[:3] @ frame)[2]
+        tip = axis[:, -1, 2] - (model.line(arms, trajectory.reference)[0, :3] @ frame)[2]
         values["w"] = tip, "tip displacement out of the plane [m]"
         values["w_dot"] = moving[:, -1, 2], "tip velocity out of the plane [m/s]"
     values |= {
@@ -85,18 +84,23 @@ def columns(
             np.linalg.norm(off[:, : model.dimensions], axis=1), "position error of the clamp [m]"
         ),
         "direction_residual": (
-            np.abs(off @ model.held(reference).T).max(axis=1), "direction error of the clamp"
+            np.abs(off @ model.held(trajectory.reference[0]).T).max(axis=1),
+            "direction error of the clamp",
         ),
-        "axial_strain": (strain, "largest axial strain along the beam"),
+        "axial_strain": (
+            np.abs(model.axial_strain(blade, coordinates)).max(axis=1),
+            "largest axial strain along the beam",
+        ),
     }  # fmt: skip
-    values |= _clamp_loads(case, trajectory, angle, coordinates[:, 0], _to_clamp(model, blade))
+    ends = coordinates[:, 0], line[:, 0]
+    values |= _clamp_loads(case, trajectory, angle, *ends, _to_clamp(model, blade))
     t, rate_dot = time / units.time, units.time**2 * case.rotation.acceleration(time)
     if setting != 1.0:
         across = _torque_across(built, setting, t, angle, coordinates, relative, rate, rate_dot)
         torque, label = values["clamp_torque"]
         values["clamp_torque"] = setting * torque + across, label
     if case.exchanges_energy:
-        power = built.loading.power(t, angle, relative) - rate_dot * momentum
+        power = built.loading.power(t, angle, coordinates, relative) - rate_dot * momentum
         if built.chain.dissipation is not None:
             power = power - built.chain.dissipation(coordinates, relative)
         values["supplied_energy"] = _integral(t, power), "supplied share of the Jacobi energy [J]"
@@ -124,9 +128,13 @@ def columns(
 
 
 def _clamp_loads(
-    case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, turn: FloatArray
-) -> dict[str, tuple[FloatArray, str]]:
-    """Return what the blade exerts on the clamp, by the multipliers; `turn` as of `_to_clamp`."""
+    case: RunCase, trajectory: Trajectory, angle: FloatArray, root: FloatArray, line: FloatArray,
+    turn: FloatArray,
+) -> dict[str, tuple[FloatArray, str]]:  # fmt: skip
+    """Return what the blade exerts on the clamp, by the multipliers.
+
+    `root` is of its node, `line` of the clamp; `turn` is that of `_to_clamp`.
+    """
     model, count = case.model, case.model.dimensions
     onto = np.zeros_like(root)
     onto[:, :count] = trajectory.multipliers[:, :count]
@@ -134,7 +142,9 @@ def _clamp_loads(
         onto = model.turned(onto[:, None], -angle)[:, 0]
     onto += trajectory.multipliers[:, count:] @ model.held(trajectory.reference[0])
     force = onto[:, :count] @ np.eye(count, 3)
-    kinds = ("force", "N", force), ("moment", "N m", model.root_moment(root, onto))
+    arm = (root - line)[:, :count] @ np.eye(count, 3)
+    moment = model.root_moment(root, onto) + np.cross(arm, force)
+    kinds = ("force", "N", force), ("moment", "N m", moment)
     values = {
         f"root_{kind}_{axis}": (column, f"{kind} of the blade on the clamp, {axis} [{unit}]")
         for kind, unit, loads in kinds
@@ -169,7 +179,8 @@ def _torque_across(
     along = rate_dot * second + 2.0 * rate * change + setting * rate**2 * mixed
     lever = model.spun(coordinates * model.radial).reshape(samples, -1)
     # A weight W in the plane of rotation acts with cW in that of bending; s²W = (1 + c)(W - cW).
-    weight = built.loading.forces(t, angle, 1.0) - built.loading.forces(t, angle)
+    as_set = t, angle, coordinates
+    weight = built.loading.forces(*as_set, 1.0) - built.loading.forces(*as_set)
     held = (1.0 + setting) * np.sum(lever * weight, axis=1)
     return np.asarray((1.0 - setting**2) * along - held)
 
@@ -235,11 +246,13 @@ class _Masses:
     ) -> None:
         blade, model, count = built.blade, case.model, len(built.nodes)
         self._case, self._units, self._model, self._beam = case, units, model, blade
-        ends = np.union1d(np.linspace(0.0, 1.0, count), stations)
+        nodes = (count - 1) // case.elements + 1
+        mesh = Mesh(blade=blade, elements=case.elements, nodes_of_element=nodes)
+        ends = np.union1d(np.union1d(mesh.places / blade.length, mesh.stations), stations)
         inner, weights = gauss_points(_POINTS)
         dx = np.outer(np.diff(ends), weights).ravel()
         x = (ends[:-1, None] + np.outer(np.diff(ends), inner)).ravel()
-        at, none = Mesh(blade=blade, elements=1).along(x), np.zeros(1)
+        at, none = mesh.along(x), np.zeros(1)
         # Behind the points of the blade come those of its point masses, and the tip.
         bodies = [(one.position, one.mass, one.inertia) for one in blade.point_masses]
         places, masses, inertias = np.array(bodies).reshape(-1, 3).T
@@ -252,15 +265,19 @@ class _Masses:
         # Inertia of what turns in its plane is that of a mass along the second axis.
         self._second = np.zeros((self._x.size, 3, 3))
         self._second[x.size : -1, 1, 1] = inertias
+        everywhere = np.append(self._x, stations)
+        self._arms = np.zeros((everywhere.size, 3))
         if model.twists:
-            _, own = space_unit(blade).inertia_about(x, blade.slenderness)
+            unit = space_unit(blade)
+            self._arms = blade.length * unit.inertia_about(everywhere, blade.slenderness)[0].T
+            _, own = unit.inertia_about(x, blade.slenderness)
             second = 0.5 * np.trace(own) * np.eye(3)[..., None] - own
-            unit = blade.mass_per_length * blade.length**2
-            self._second[: x.size] = np.moveaxis(unit * second * dx, -1, 0)
+            scale = blade.mass_per_length * blade.length**2
+            self._second[: x.size] = np.moveaxis(scale * second * dx, -1, 0)
         elif model.theory.rotary_inertia:
             self._second[: x.size, 1, 1] = at.rotary_inertia * dx
         self._outboard = ((self._x > stations[:, None]) | (self._x == 1.0)).astype(float)
-        spread = model.spread(count, case.elements, blade.length, np.append(self._x, stations))
+        spread = model.spread(mesh.places, case.elements, blade.length * everywhere)
         self._spread = sparse.csr_array(spread.reshape(-1, spread.shape[2] * spread.shape[3]))
 
     def loads(self, time: FloatArray, *states: FloatArray) -> tuple[FloatArray, ...]:
@@ -275,17 +292,29 @@ class _Masses:
             rates, turning = relative, np.array([0.0, math.sin(setting), math.cos(setting)])
         W = np.multiply.outer(per_unit * case.rotation.rate(time), turning)[:, None]
         W_dot = np.multiply.outer(per_unit**2 * case.rotation.acceleration(time), turning)[:, None]
-        r, v, v_frame, a = (self._vectors(one) for one in (e, relative, rates, change))
+        line, v, r, v_frame, a = (
+            self._vectors(one)
+            for one in (
+                model.line(self._arms, e),
+                model.line(self._arms, e, relative),
+                e,
+                rates,
+                change,
+            )
+        )
         a = a + np.cross(W, 2.0 * v_frame + np.cross(W, r)) + np.cross(W_dot, r)
         f = -self._weights["mass"][:, None] * a[:, :count]
-        f -= self._beam.damping.external * self._weights["length"][:, None] * v[:, :count]
+        on_line = -self._beam.damping.external * self._weights["length"][:, None] * v[:, :count]
         for load in self._units.loads(case.loads):
             if load.acts_on is not None:
                 phase = (load.frequency or 0.0) * time / per_unit
-                push = load.force(phase, angle, model.setting(self._beam))
-                parts = np.stack((push.real, push.imag, load.lift(phase)), axis=-1)
-                f += self._weights[load.acts_on][:, None] * parts[:, None]
-        couple, section = np.cross(r[:, :count], f), model.sections(e)
+                force = load.force(phase, angle, model.setting(self._beam))
+                parts = np.stack((force.real, force.imag, load.lift(phase)), axis=-1)
+                push = self._weights[load.acts_on][:, None] * parts[:, None]
+                total = f if load.acts_on == "mass" else on_line
+                total += push
+        couple = np.cross(r[:, :count], f) + np.cross(line[:, :count], on_line)
+        f, section = f + on_line, model.sections(e)
         if self._second.any():
             ahead, d, behind = (
                 np.swapaxes(model.sections(e + h * rates + 0.5 * h**2 * change)[:, :count], -1, -2)
@@ -294,7 +323,7 @@ class _Masses:
             # In its plane only Euler's acceleration turns a section; a set ancf3 has ρI s²w² more.
             d_ddot = (ahead - 2.0 * d + behind) / _INSTANT**2 + np.cross(W_dot[:, None], d)
             couple -= np.cross(d, self._second @ d_ddot).sum(axis=-2)
-        place, section = r[:, count:], section[:, count:]
+        place, section = line[:, count:], section[:, count:]
         force = self._outboard @ f
         moment = self._outboard @ couple - np.cross(place, force)
         force, moment = ((one[..., None, :] @ section)[..., 0, :] for one in (force, moment))

@@ -167,16 +167,17 @@ def _markers(mbs: exudyn.MainSystem, chain: Chain) -> list[exudyn.MarkerIndex]:
 
 
 def prescribe_rotation(
-    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation, radius: float
+    mbs: exudyn.MainSystem, chain: Chain, element: Formulation, rotation: Rotation
 ) -> list[exudyn.ObjectIndex]:
-    """Make the root, on a hub of `radius`, follow Eq. 1 (inertial frame); return the constraints.
+    """Make the root follow Eq. 1 (inertial frame); return the constraints.
 
     Their rows are those of the place, and then those of the direction.
     """
     root = chain.reference(mbs)[0]
-    constraints = [] if radius else [hold_root(mbs, chain, element, turning=True)]
+    moving = bool(root[:2].any())  # at the axis its place stands still
+    constraints = [] if moving else [hold_root(mbs, chain, element, turning=True)]
     # Each constraint holds a few coordinates, the same at every angle.
-    clamp = _clamp(element, root, radius)
+    clamp = _clamp(element, root) if moving else element.clamp(root)
     held = [np.flatnonzero(row).tolist() for row in clamp(1.0)[0]]
 
     @lru_cache(maxsize=1)  # called seven times a step, with plain numbers
@@ -213,12 +214,10 @@ def prescribe_rotation(
 
 
 def _clamp(
-    element: Formulation, root: FloatArray, radius: float
+    element: Formulation, root: FloatArray
 ) -> Callable[[float], tuple[FloatArray, FloatArray]]:
-    """Return the function of θ that gives C and d of the root's C e = d, on a hub of `radius`."""
+    """Return the function of θ that gives C and d of C e = d, of the root's place and direction."""
     direction = element.clamp(root)
-    if not radius:  # at the axis its place stands still
-        return direction
     x, y, *up = root[: element.dimensions]
     place = np.eye(element.dimensions, root.size)
 

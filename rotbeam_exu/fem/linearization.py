@@ -93,10 +93,11 @@ class Linearization:
             )
             if weight:
                 loading = Loading(model, unit_beam, elements, built.mass, units.loads(weight))
-                whole = loading.forces(np.zeros(1), np.zeros(1)).ravel()
+                shape, none = (1, len(built.nodes), -1), np.zeros(1)
                 nothing = [(np.zeros((1, 3)), 0.0, 0.0)]
                 add_force(
-                    mbs, built.nodes, force=lambda t, e, rates: t * whole,
+                    mbs, built.nodes,
+                    force=lambda t, e, rates: t * loading.forces(none, none, e.reshape(shape))[0],
                     derivatives=lambda t, e: nothing,
                 )  # fmt: skip
             mbs.Assemble()
@@ -109,13 +110,14 @@ class Linearization:
                 ) from error
             unloaded = built.chain.reference(mbs)[-1]
             moved = mbs.GetNodeOutput(built.nodes[-1], exudyn.OutputVariableType.Coordinates)
+            arm = model.arms(unit_beam, elements)[-1]
             settings.staticSolver.loadStepStart = 1.0  # when the speed is reached
             linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
         mass, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
-        axes = model.line_frame(blade)
-        turned = np.nan
+        axes, ends = model.line_frame(blade), np.stack((unloaded, unloaded + moved))
+        moved, turned = np.diff(model.line(arm, ends), axis=0)[0], np.nan
         if model.twists:
-            before, after = model.sections(np.stack((unloaded, unloaded + moved)))
+            before, after = model.sections(ends)
             turned = twist((axes.T @ after @ before.T @ axes)[None])[0]
         return cls(
             mass=mass, stiffness=stiffness, gyroscopic=gyroscopic,

@@ -19,7 +19,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from analytic import Blade, Section
+from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.lazily import sparse
 from analytic.loads import Load
@@ -51,44 +51,65 @@ class Loading:
         size, per_node = mass.shape[0], model.angles.size
         of_length = sparse.csr_array(mass.shape)
         if external or any(onto == "length" for _, onto in forces):
-            own = blade.section
-            section = Section(
-                axial_stiffness=own.axial_stiffness, bending_stiffness=own.bending_stiffness,
-                mass_per_length=1.0, rotary_inertia=0.0, out_of_plane=own.out_of_plane,
-            )  # fmt: skip
+            section = blade.section.of_unit_mass()
             light = replace(blade.with_section(section), point_masses=())
             of_length = mass_matrix(model, light, elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
         acted_on = {"mass": mass, "length": of_length, "tip": at_tip}
         # Unit translations along and across the blade, and up.
         shifts = np.tile(np.eye(model.dimensions, per_node), size // per_node)
-        self._pushes = [(load, np.asarray(shifts @ acted_on[onto])) for load, onto in forces]
+        self._pushes = [
+            (load, onto == "mass", np.asarray(shifts @ acted_on[onto])) for load, onto in forces
+        ]
         self._drag, self._model, self._setting = external * of_length, model, model.setting(blade)
+        self._arms = model.arms(blade, elements)
 
     def __bool__(self) -> bool:
         return bool(self._pushes) or self._drag.nnz > 0
 
-    def forces(self, t: FloatArray, angle: FloatArray, setting: float | None = None) -> FloatArray:
-        """Return the nodal forces of all loads in the frame of the clamp, (samples, n).
-
-        As they would be if the blade were set otherwise, where a `setting` is given.
-        """
-        total = np.zeros((t.size, self._drag.shape[0]))
-        setting = self._setting if setting is None else setting
-        for load, onto in self._pushes:
+    def _pushed(
+        self, t: FloatArray, angle: FloatArray, setting: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the loads on the mass and on the line, in the frame of the clamp, (samples, n)."""
+        on_mass, on_line = np.zeros((2, t.size, self._drag.shape[0]))
+        for load, of_mass, onto in self._pushes:
             phase = (load.frequency or 0.0) * t
             force = load.force(phase, angle, setting)
             parts = np.stack([force.real, force.imag, load.lift(phase)], axis=1)
+            total = on_mass if of_mass else on_line
             total += parts[:, : len(onto)] @ onto
-        return total
+        return on_mass, on_line
 
-    def power(self, t: FloatArray, angle: FloatArray, velocities: FloatArray) -> FloatArray:
+    def _onto_nodes(self, coordinates: FloatArray, on_line: FloatArray) -> FloatArray:
+        forces = self._model.onto_nodes(self._arms, coordinates, on_line.reshape(coordinates.shape))
+        return forces.reshape(on_line.shape)
+
+    def forces(
+        self, t: FloatArray, angle: FloatArray, coordinates: FloatArray,
+        setting: float | None = None,
+    ) -> FloatArray:  # fmt: skip
+        """Return the nodal forces of all loads in the frame of the clamp, (samples, n).
+
+        Of coordinates (samples, nodes, n) there. As they would be if the blade were set otherwise,
+        where a `setting` is given.
+        """
+        setting = self._setting if setting is None else setting
+        on_mass, on_line = self._pushed(t, angle, setting)
+        return on_mass + self._onto_nodes(coordinates, on_line)
+
+    def power(
+        self, t: FloatArray, angle: FloatArray, coordinates: FloatArray, velocities: FloatArray
+    ) -> FloatArray:
         """Return the power (samples,) that loads bring and external damping takes.
 
-        Velocities (samples, nodes, n) are relative to the frame of the clamp, by its axes.
+        Coordinates and velocities (samples, nodes, n) are relative to the frame of the clamp, by
+        its axes.
         """
         v = velocities.reshape(t.size, -1)
-        return np.asarray(np.sum((self.forces(t, angle) - v @ self._drag) * v, axis=1))
+        at_line = self._model.line(self._arms, coordinates, velocities).reshape(t.size, -1)
+        on_mass, on_line = self._pushed(t, angle, self._setting)
+        power = on_mass * v + (on_line - at_line @ self._drag) * at_line
+        return np.asarray(np.sum(power, axis=1))
 
     def add(self, mbs: exudyn.MainSystem, chain: Chain, rotation: Rotation, frame: Frame) -> None:
         """Put loads and external damping on the chain, whose clamp follows `rotation`."""
@@ -98,19 +119,28 @@ class Loading:
         drag_triplets, turning_triplets = triplets(self._drag), triplets(turning)
 
         @lru_cache(maxsize=1)
-        def acting(t: float) -> FloatArray:
+        def acting(t: float) -> tuple[FloatArray, FloatArray]:
             angle = np.array([rotation.angle(t)])
-            forces = self.forces(np.array([t]), angle)
+            on_mass, on_line = self._pushed(np.array([t]), angle, self._setting)
             if not inertial:
-                return forces.ravel()
-            return self._model.turned(forces.reshape(1, len(chain.nodes), -1), angle).ravel()
+                return on_mass.ravel(), on_line.ravel()
+            turned = [
+                self._model.turned(one.reshape(1, len(chain.nodes), -1), angle).ravel()
+                for one in (on_mass, on_line)
+            ]
+            return turned[0], turned[1]
 
         def frame_rate(t: float) -> float:
             """Return the rate at which velocities of the clamp's frame turn in the coordinates."""
             return rotation.rate(t) if inertial else 0.0
 
         def force(t: float, e: FloatArray, rates: FloatArray) -> FloatArray:
-            return np.asarray(acting(t) + frame_rate(t) * (turning @ e) - self._drag @ rates)
+            at, moving = (one.reshape(len(chain.nodes), -1) for one in (e, rates))
+            line = self._model.line(self._arms, at).ravel()
+            line_rates = self._model.line(self._arms, at, moving).ravel()
+            on_mass, on_line = acting(t)
+            on_line = on_line + frame_rate(t) * (turning @ line) - self._drag @ line_rates
+            return on_mass + self._onto_nodes(at, on_line)
 
         def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
             return [(drag_triplets, 0.0, -1.0), (turning_triplets, frame_rate(t), 0.0)]

@@ -34,7 +34,8 @@ class RotatingBeam:
     chain : Chain
         Its nodes, from the clamped root to the tip, and its bodies.
     tip_marker : MarkerIndex
-        Position of the tip, to which forces and other bodies can be attached.
+        Position of the tip, to which forces and other bodies can be attached; of "space_exact" that
+        of the center of mass of its section.
     tip_sensor : SensorIndex
         Position of the tip, stored in the sensor itself.
     torque : callable
@@ -198,7 +199,7 @@ def add_rotating_beam(
         if azimuth:
             rotation = restated(rotation, azimuth=azimuth)
         if frame == "inertial":
-            constraints = drive.prescribe_rotation(mbs, chain, model, rotation, blade.hub_radius)
+            constraints = drive.prescribe_rotation(mbs, chain, model, rotation)
         else:
             constraints = [drive.hold_root(mbs, chain, model)]
             drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(blade))

@@ -31,6 +31,7 @@ from . import drive
 from .case import RunCase
 from .columns import columns
 from .elements import Formulation
+from .mesh import Mesh
 from .rotating_beam import add_rotating_beam
 from .solver import Sensors, described, exudyn_system, solve
 from .units import Units
@@ -71,7 +72,7 @@ def simulate(
         options, such as `Exact(nodes=3)`. It lives in the plane, or in space: "space_exact", for
         blades with twist, precone, prebend and sweep, and "space_cable".
     elements : int
-        Number of elements of equal length.
+        Number of elements, of equal length between the stations of the section.
     duration : float
         End of the run [s]; longer than the ramp.
     step : float
@@ -195,8 +196,9 @@ def _start(
     if initial_state is None:
         return None
     require_planar(case.blade)
-    x = np.linspace(0.0, 1.0, len(reference))
-    state = initial_state(case.blade.length * x)
+    nodes = (len(reference) - 1) // case.elements + 1
+    mesh = Mesh(blade=case.blade, elements=case.elements, nodes_of_element=nodes)
+    state = initial_state(mesh.places)
     if not case.model.leaves_plane:
         for name in ("w", "w_slope", "w_dot", "w_slope_dot"):
             if largest := float(np.max(np.abs(getattr(state, name)))):
@@ -205,7 +207,7 @@ def _start(
                     f"initial_state moves the blade by {name} up to {largest:.3g}: take "
                     "element='space_exact'"
                 )
-    return case.model.coordinates(case.blade.unit.hub + x, units.state(state))
+    return case.model.coordinates(mesh.positions / units.length, units.state(state))
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
@@ -280,7 +282,8 @@ def kicked(
         slope = interpolate.CubicSpline(along, blade.length * mode).derivative()
 
     def state(x: FloatArray) -> BeamState:
-        fine = np.linspace(0.0, blade.length, _BETWEEN * (x.size - 1) + 1)
+        count = np.arange(_BETWEEN * (x.size - 1) + 1) / _BETWEEN
+        fine = np.interp(count, np.arange(x.size), x)
         start, tilt = (planar or straight_state)(fine), kick * slope(fine)
         # The change of the slopes (u', v', w') turns the tangent, and keeps its length.
         tangent = np.stack((1.0 + start.u_slope, start.v_slope))

@@ -17,6 +17,7 @@ from analytic.lazily import sparse
 from ..runs import Frame
 from .elements.formulation import Chain, Formulation
 from .lazily import exudyn, items
+from .mesh import Mesh
 
 
 @contextmanager
@@ -46,9 +47,13 @@ def static_settings(blade: Blade, elements: int) -> exudyn.SimulationSettings:
 def round_off(blade: Blade, elements: int) -> float:
     """Return the residual force that Newton cannot go below, for a beam of unit length.
 
-    The axial force EA (|r'| - 1) has its round-off from r' = r/l, the shear force from r''/l².
+    The axial force EA (|r'| - 1) has its round-off from r' = r/l, the shear force from r''/l²;
+    both most on the shortest element.
     """
-    return 1e-14 * (elements * blade.axial_stiffness + 10.0 * elements**3 * blade.bending_stiffness)
+    finest = blade.length / Mesh(blade=blade, elements=elements).lengths.min()
+    return float(
+        1e-14 * (finest * blade.axial_stiffness + 10.0 * finest**3 * blade.bending_stiffness)
+    )
 
 
 def mass_matrix(model: Formulation, blade: Blade, elements: int) -> sparse.csr_array:

@@ -185,7 +185,7 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
     The exact beam is `linear_modes` and `periodic_orbits` of `analytic`: geometrically exact and
     extensible, with shear and rotary inertia where the element has them, which are worth 5e-5.
     """
-    theory = formulation(case.element).theory
+    theory = formulation(case.element).theory_of(case.blade)
     exact_frequency, why_not = math.nan, "" if exact else "it was not asked for"
     if case.exchanges_energy:
         why_not = "loads and damping make it another than the free orbit's"

@@ -7,6 +7,7 @@ import pytest
 
 from analytic import (
     Beam,
+    Blade,
     Damping,
     Gravity,
     Rectangle,
@@ -19,6 +20,9 @@ from rotbeam_exu import kicked, natural_frequencies, simulate
 
 BEAM = Beam.reference()
 STRIP = BEAM.with_shape(Rectangle())
+TABLE = Blade.from_stations(
+    [0.0, 8.0], [[5e6, 1e6, 1e6, 50.0, 60.0, 566.0]] * 2, [[0.2, 0, 0, 0]] * 2
+)
 ALIKE = BEAM.with_section_out_of_plane(1.0, 0.8)
 
 
@@ -46,7 +50,10 @@ def in_space(blade, **options):
         ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
         # Blades that an element does not model.
         ({"blade": BEAM.with_setting_angle(0.3)}, "the cosine 0.9553: take frame='rotating'"),
-        ({"blade": BEAM.with_point_mass(0.1, 3.3)}, "take a number of elements that puts one"),
+        (
+            {"blade": BEAM.with_point_mass(0.1, 3.3).with_tip_mass(0.1), "elements": 1},
+            "1 elements have no nodes at all point masses of this blade: take 2 or more",
+        ),
         (
             {"blade": BEAM.with_hub_radius(1.0), "element": "linear"},
             "hub: take 'cable', 'exact' or",
@@ -71,7 +78,9 @@ def in_space(blade, **options):
         ({"blade": STRIP.with_twist(0.1)}, "take element='space_exact'"),
         ({"blade": STRIP.with_tip_mass(0.5).with_twist(0.1)}, "take analytic.spin_up_response"),
         ({"blade": STRIP.with_kink(4.0, 0.1)}, "kink or offset: take analytic.spin_up_response"),
-        (in_space(STRIP.with_offsets(mass=(0.01, 0.0))), r"blade.with_offsets\(\)"),
+        (in_space(STRIP.with_kink(4.0, 0.1)), "the line of this blade has kinks: take analytic."),
+        ({"blade": TABLE}, "a table of stations this .* the command line --element space_exact"),
+        ({"blade": TABLE.with_tip_mass(0.5)}, "twists: take analytic.spin_up_response, or on the"),
         (in_space(STRIP.with_twist(0.1), initial_state=kicked(STRIP)), "in its plane"),
         ({"loads": [Gravity(tilt=1.0)]}, "'cable' stays in the plane of rotation"),
         *(

@@ -200,7 +200,7 @@ def test_the_air_brakes_the_axis_and_no_section_or_mass(beam, model):
         nodes = model.lay(mbs, blade, 4).nodes
         at = np.array([mbs.GetNodeParameter(n, "referenceCoordinates") for n in nodes])
     loading = Loading(model, blade, 4, mass_matrix(model, blade, 4), [])
-    taken = -loading.power(np.zeros(1), np.zeros(1), rate * model.spun(at)[None])
+    taken = -loading.power(*np.zeros((2, 1)), at[None], rate * model.spun(at)[None])
     wanted = rate**2 * d * ((radius + length) ** 3 - radius**3) / 3.0
     # A braked section would add μ times 3 of it.
     assert taken == pytest.approx([wanted], rel=1e-9)

@@ -91,7 +91,7 @@ class Ancf3(Sheared, SectionSlopeNodes):
         return self.law != "coupled"
 
     def lay(self, mbs: exudyn.MainSystem, blade: Blade, elements: int) -> Chain:
-        """Add one body for all `elements`, of equal length, along the x axis, and the masses."""
+        """Add one body for all `elements` along the x axis, and the masses."""
         mesh = Mesh(blade=blade, elements=elements, nodes_of_element=3)
         body = _Row(self, mesh)
         nodes = self.add_nodes(mbs, mesh.positions)
@@ -132,17 +132,22 @@ class _Row:
 
     def __init__(self, element: Ancf3, mesh: Mesh) -> None:
         self.assembly = Assembly(mesh.elements, inner=2, per_node=4)
-        self._shape = _axis_vectors(mesh.length)
+        self._shape = _axis_vectors()
+        # r_x and r_xy go with 1/l; (elements, points, 6).
+        self._per = np.repeat(mesh.lengths[:, None, None], 6, axis=2)
+        self._per = np.where([1, 1, 0, 0, 1, 1], 1.0 / self._per, 1.0)
         section = mesh.sections_at(gauss_points(2)[0])
         # The weight of either Gauss point; (elements, points, 6, 6).
         self._moduli = (
-            0.5 * mesh.length * element.moduli(section.axial_stiffness, section.bending_stiffness)
+            0.5
+            * mesh.lengths[:, None, None, None]
+            * element.moduli(section.axial_stiffness, section.bending_stiffness)
         )
 
     def vectors(self, coordinates: FloatArray) -> FloatArray:
         """Return z = (r_x, r_y, r_xy) at the Gauss points, (..., elements, points, 6)."""
         flat = self.assembly.gather(coordinates) @ self._shape.reshape(-1, 12).T
-        return flat.reshape(*flat.shape[:-1], 2, 6)
+        return np.asarray(flat.reshape(*flat.shape[:-1], 2, 6) * self._per)
 
     def energy(self, coordinates: FloatArray) -> FloatArray:
         """Return the elastic energy (samples,) of coordinates (samples, nodes, 4)."""
@@ -153,13 +158,15 @@ class _Row:
         """Return the gradient of the energy, Bᵀ Σ (D g)_i Q_i z."""
         invariants, slopes = self._strains(e)
         conjugate = (self._stresses(invariants)[..., None, :] @ slopes)[..., 0, :]
-        return self.assembly.vector(conjugate.reshape(-1, 12) @ self._shape.reshape(12, 12))
+        flat = (self._per * conjugate).reshape(-1, 12)
+        return self.assembly.vector(flat @ self._shape.reshape(12, 12))
 
     def tangent(self, e: FloatArray) -> FloatArray:
         """Return the derivative of the force, Bᵀ [Gᵀ D G + Σ (D g)_i Q_i] B with G = (Q_i z)."""
         invariants, slopes = self._strains(e)
         inner = np.swapaxes(slopes, -1, -2) @ self._moduli @ slopes
         inner += np.tensordot(self._stresses(invariants), _FORMS, axes=1)
+        inner *= self._per[..., :, None] * self._per[..., None, :]
         return self.assembly.triplets(
             np.einsum("pia,jpik,pkb->jab", self._shape, inner, self._shape, optimize=True)
         )
@@ -176,10 +183,10 @@ class _Row:
 
 
 @lru_cache
-def _axis_vectors(length: float) -> FloatArray:
-    """B (points, 6, 12) of (r_x, r_y, r_xy) = B e from Eqs. 3-7 at y = 0, two Gauss points."""
+def _axis_vectors() -> FloatArray:
+    """B (points, 6, 12) of (r_x, r_y, r_xy) = B e of Eqs. 3-7 at y = 0, l = 1, two Gauss points."""
     xi = gauss_points(2)[0]
-    values, slopes = lagrange(xi, 2), lagrange(xi, 2, 1) / length
+    values, slopes = lagrange(xi, 2), lagrange(xi, 2, 1)
     rows = np.zeros((2, 3, 3, 2))  # points, vectors, nodes, r or r_y
     rows[:, 0, :, 0], rows[:, 1, :, 1], rows[:, 2, :, 1] = slopes, values, slopes
     return np.asarray(np.kron(rows.reshape(2, 3, 6), np.eye(2)), dtype=np.float64)
@@ -192,5 +199,5 @@ def _mass(mesh: Mesh) -> FloatArray:
     mass = np.zeros((mesh.elements, 3, 2, 3, 2))  # nodes, r or r_y
     for kind, density in enumerate((section.mass_per_length, section.rotary_inertia)):
         mass[:, :, kind, :, kind] = np.einsum("pa,pb,ep->eab", values, values, density * weights)
-    blocks = mesh.length * mass.reshape(mesh.elements, 6, 6)
+    blocks = mesh.lengths[:, None, None] * mass.reshape(mesh.elements, 6, 6)
     return np.asarray(np.kron(blocks, np.eye(2)[None]), dtype=np.float64)

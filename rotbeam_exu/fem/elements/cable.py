@@ -34,7 +34,7 @@ class _Cables(Formulation, abstract=True):
     takes_blades: ClassVar[bool] = True
 
     def lay(self, mbs: exudyn.MainSystem, blade: Blade, elements: int) -> Chain:
-        """Add `elements` cables of equal length along the x axis, and the masses at their nodes."""
+        """Add `elements` cables along the x axis, and the masses at their nodes."""
         mesh, damping = Mesh(blade=blade, elements=elements), blade.damping
         nodes, body = self.add_nodes(mbs, mesh.positions), getattr(items, self.body)
         EI, EA = mesh.sections.bending_stiffness, mesh.sections.axial_stiffness
@@ -42,7 +42,7 @@ class _Cables(Formulation, abstract=True):
             mbs.AddObject(
                 body(
                     nodeNumbers=list(pair),
-                    length=mesh.length,
+                    length=mesh.lengths[i],
                     massPerLength=mesh.sections.mass_per_length[i],
                     bendingStiffness=EI[i],
                     axialStiffness=EA[i],
@@ -125,8 +125,8 @@ def _dissipation(mesh: Mesh, coordinates: FloatArray, velocities: FloatArray) ->
     def at(xi: float, order: int, row: Any) -> Any:
         """Return the derivatives (2, samples, elements) of the axis to x."""
         ends = np.concatenate((row[:, :-1], row[:, 1:]), axis=2)
-        weights = np.kron(shapes(xi, mesh.length, order)[:, None], np.eye(2))
-        return np.moveaxis(ends @ weights, -1, 0)
+        vectors = ends.reshape(*ends.shape[:2], 4, 2)
+        return np.einsum("sekc,ek->cse", vectors, shapes(xi, mesh.lengths, order))
 
     def strain(xi: float, row: Any) -> Any:
         return np.sqrt(np.sum(at(xi, 1, row) ** 2, axis=0)) - 1.0
@@ -142,5 +142,5 @@ def _dissipation(mesh: Mesh, coordinates: FloatArray, velocities: FloatArray) ->
     ):
         for xi, weight in points:
             rate = rate_of(partial(of, xi), coordinates, velocities)
-            power += mesh.length * weight * rate**2 @ stiffness
+            power += weight * rate**2 @ (mesh.lengths * stiffness)
     return power

@@ -114,6 +114,15 @@ def add_force(
     )
 
 
+def add_mass(
+    mbs: exudyn.MainSystem, nodes: Sequence[exudyn.NodeIndex], mass: sparse.csr_array
+) -> None:
+    """Add M e'' over the coordinates e of `nodes`."""
+    container = exudyn.MatrixContainer()
+    container.SetWithSparseMatrix(sparse.csr_matrix(mass))
+    mbs.AddObject(items.ObjectGenericODE2(nodeNumbers=list(nodes), massMatrix=container))
+
+
 def triplets(matrix: sparse.csr_array) -> FloatArray:
     """Return (rows, columns, values) of a matrix, as Exudyn takes them."""
     entries = matrix.tocoo()

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from analytic import Blade
 from analytic.arrays import FloatArray
@@ -21,7 +20,7 @@ from analytic.motion import Rotation
 from analytic.theory import Theory
 
 from ..lazily import exudyn, items
-from ..mesh import lagrange
+from ..mesh import cells, lagrange
 from .energy_body import TurningNode, spins
 
 POISSON_RATIO = 0.3
@@ -136,6 +135,11 @@ class Formulation(Described, abstract=True):
         sheared = self.shear_share is not None
         return Theory(shear=self.shear_share, rotary_inertia=sheared, trapeze=not self.leaves_plane)
 
+    def theory_of(self, blade: Blade) -> Theory:
+        """Theory of its beam where it models a blade; a table of stations tells its own shear."""
+        table = blade.section.at_stations and self.shear_share is not None
+        return replace(self.theory, shear=True) if table else self.theory
+
     def lay(self, mbs: exudyn.MainSystem, blade: Any, elements: int) -> Chain:
         """Add nodes and elements for `blade` to `mbs`."""
         raise NotImplementedError
@@ -184,6 +188,26 @@ class Formulation(Described, abstract=True):
         """Axial strain [-] along the beam, (..., points), of coordinates (..., nodes, n)."""
         raise NotImplementedError
 
+    def arms(self, blade: Any, elements: int) -> FloatArray:
+        """Return the places of the nodes from the blade's line in axes of the section, (nodes, 3).
+
+        One zero for all here, where nodes are on the line.
+        """
+        return np.zeros((1, 3))
+
+    def line(self, arms: FloatArray, *state: FloatArray) -> FloatArray:
+        """Return what nodes on the blade's line would have: coordinates or, of both, the rates.
+
+        Arrays are (..., nodes, n).
+        """
+        return state[-1]
+
+    def onto_nodes(
+        self, arms: FloatArray, coordinates: FloatArray, forces: FloatArray
+    ) -> FloatArray:
+        """Return forces on the nodes, (..., nodes, n), of forces on the blade's line."""
+        return forces
+
     def divergence_speed(self, blade: Any, elements: int) -> float:
         """Speed [rad/s] above which the model diverges; infinite where its strains are exact."""
         return math.inf
@@ -191,11 +215,15 @@ class Formulation(Described, abstract=True):
     def require_section(self, blade: Blade) -> None:
         """Refuse a blade whose line or section the element does not model."""
         require_blade(blade)
-        whole = blade
-        line, table = whole.line, whole.section.at_stations
-        beyond = (*line.kinks, *line.mass_offset, *line.tension_offset, *whole.point_masses)
-        exact = "analytic.spin_up_response, or on the command line rotbeam reference"
-        remedy = exact if table or any(beyond) else "element='space_exact'"
+        table = blade.section.at_stations
+        remedy = "element='space_exact', on the command line --element space_exact"
+        if blade.line.kinks or blade.point_masses:
+            remedy = "analytic.spin_up_response, or on the command line rotbeam reference"
+        if table:
+            raise ValueError(
+                f"element {self.name!r} bends in one plane, and by a table of stations this blade "
+                f"bends in flap and lag and twists: take {remedy}"
+            )
         require_planar(blade, f"element {self.name!r} is for", remedy)
 
     def setting(self, blade: Blade) -> float:
@@ -228,14 +256,14 @@ class Formulation(Described, abstract=True):
         z, (_, *straight) = coordinates[..., 2] + 1j * coordinates[..., 3], self.straight
         return in_plane_of_bending(np.angle(z / complex(*straight)), 0.0)
 
-    def spread(self, nodes: int, elements: int, length: float, s: FloatArray) -> FloatArray:
+    def spread(self, places: FloatArray, elements: int, s: FloatArray) -> FloatArray:
         """Return the matrix (places, n, nodes, n) to the coordinates a node would have at `s`.
 
-        From those of the nodes of elements in a row of `length`; s is from 0 to 1. Lagrange's.
+        From those of nodes of elements at `places`; both are from the clamp. Lagrange's.
         """
-        degree = (nodes - 1) // elements
-        cell, xi = cells(elements, s)
-        weights = np.zeros((s.size, nodes))
+        degree = (places.size - 1) // elements
+        cell, xi = cells(places[::degree], s)
+        weights = np.zeros((s.size, places.size))
         at = degree * cell[:, None] + np.arange(degree + 1)
         np.put_along_axis(weights, at, lagrange(xi, degree), axis=1)
         return np.asarray(np.einsum("sk,ij->sikj", weights, np.eye(self.angles.size)))
@@ -286,12 +314,6 @@ class Formulation(Described, abstract=True):
             twice += inertia * spin**2
         normal = (1.0 - setting**2) * rate * np.sum(along * (along @ mass), axis=1)
         return 0.5 * (twice + rate * normal), setting * about_normal + normal
-
-
-def cells(count: int, s: FloatArray) -> tuple[NDArray[np.int_], FloatArray]:
-    """Return in which of equal cells places from 0 to 1 are, and where inside, from 0 to 1."""
-    cell = np.minimum((count * s).astype(int), count - 1)
-    return cell, count * s - cell
 
 
 def rate_of(

@@ -18,8 +18,8 @@ from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.exact.continuum.state import BeamState
 from analytic.lazily import spatial
 
-from ..mesh import shapes
-from .formulation import Formulation, cells
+from ..mesh import cells, shapes
+from .formulation import Formulation
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 """The generator of plane rotations: (x, y) becomes (-y, x)."""
@@ -52,16 +52,16 @@ class SlopeNodes(Formulation, abstract=True):
         values[:, self.dimensions] += 1.0
         return values, _columns(x, state, [f"{a}{of}_dot" for of in ("", "_slope") for a in axes])
 
-    def spread(self, nodes: int, elements: int, length: float, s: FloatArray) -> FloatArray:
+    def spread(self, places: FloatArray, elements: int, s: FloatArray) -> FloatArray:
         """Return the matrix to r and r' at `s`: cubic between two nodes, (places, n, nodes, n)."""
-        count = nodes - 1
-        cell, xi = cells(count, s)
-        weights = np.zeros((s.size, 2, nodes, 2))
-        of_both = np.stack([shapes(xi, length / count, order) for order in (0, 1)], axis=1)
-        at, places = cell[:, None] + np.arange(2), np.arange(s.size)[:, None]
-        weights[places, :, at] = np.moveaxis(of_both.reshape(-1, 2, 2, 2), 1, 2)
+        cell, xi = cells(places, s)
+        weights = np.zeros((s.size, 2, places.size, 2))
+        length = np.diff(places)[cell]
+        of_both = np.stack([shapes(xi, length, order) for order in (0, 1)], axis=1)
+        at, rows = cell[:, None] + np.arange(2), np.arange(s.size)[:, None]
+        weights[rows, :, at] = np.moveaxis(of_both.reshape(-1, 2, 2, 2), 1, 2)
         both = np.einsum("sakb,ij->saikbj", weights, np.eye(self.dimensions))
-        return np.asarray(both.reshape(s.size, self.angles.size, nodes, -1))
+        return np.asarray(both.reshape(s.size, self.angles.size, places.size, -1))
 
 
 class SpaceSlopeNodes(SlopeNodes, abstract=True):
@@ -189,6 +189,23 @@ class FrameNodes(Formulation, abstract=True):
         """Return the axes of the sections."""
         return directors(coordinates[..., 3:])
 
+    def line(self, arms: FloatArray, *state: FloatArray) -> FloatArray:
+        """Return coordinates, or also of rates these, less those of the arms."""
+        p, result = state[0][..., 3:], state[-1].copy()
+        if len(state) > 1:
+            arms = np.cross(turning_rate(p, state[1][..., 3:]), arms)
+        result[..., :3] -= (directors(p) @ arms[..., None])[..., 0]
+        return result
+
+    def onto_nodes(
+        self, arms: FloatArray, coordinates: FloatArray, forces: FloatArray
+    ) -> FloatArray:
+        """Return forces and the torques of their arms."""
+        p, result = coordinates[..., 3:], forces.copy()
+        local = (np.swapaxes(directors(p), -1, -2) @ forces[..., :3, None])[..., 0]
+        result[..., 3:] += onto_parameters(p, np.cross(local, arms))
+        return result
+
 
 def require_bare(element: Formulation, blade: Blade) -> None:
     """Refuse point masses, which Exudyn's elements in space do not have."""
@@ -224,3 +241,11 @@ def turning_rate(p: FloatArray, p_dot: FloatArray) -> FloatArray:
     scalar, vector = p[..., :1], p[..., 1:]
     rate, turning = p_dot[..., :1], p_dot[..., 1:]
     return np.asarray(2.0 * (scalar * turning - rate * vector - np.cross(vector, turning)))
+
+
+def onto_parameters(p: FloatArray, torque: FloatArray) -> FloatArray:
+    """Return forces on Euler parameters (..., 4) of torques (..., 3) by the axes of the section."""
+    scalar, vector = p[..., :1], p[..., 1:]
+    along = -np.sum(vector * torque, axis=-1, keepdims=True)
+    across = scalar * torque + np.cross(vector, torque)
+    return 2.0 * np.concatenate((along, across), axis=-1)

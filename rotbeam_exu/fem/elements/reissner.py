@@ -62,7 +62,7 @@ class Exact(Sheared, AngleNodes):
         return 2.0 * (self.nodes - 1)
 
     def lay(self, mbs: exudyn.MainSystem, blade: Blade, elements: int) -> Chain:
-        """Add `elements` beams of equal length along the x axis."""
+        """Add `elements` beams along the x axis."""
         mesh = Mesh(blade=blade, elements=elements, nodes_of_element=self.nodes)
         nodes = self.add_nodes(mbs, mesh.positions)
         inner, at, damping = self.nodes - 1, mesh.sections, blade.damping
@@ -71,7 +71,7 @@ class Exact(Sheared, AngleNodes):
             mbs.AddObject(
                 items.ObjectBeamGeometricallyExact2D(
                     nodeNumbers=list(nodes[inner * i : inner * (i + 1) + 1]),
-                    length=mesh.length,
+                    length=mesh.lengths[i],
                     massPerLength=at.mass_per_length[i],
                     crossSectionInertia=at.rotary_inertia[i],
                     bendingStiffness=EI[i],
@@ -105,16 +105,20 @@ class _Row:
         self._mesh = Mesh(blade=blade, elements=elements)
         points = gauss_points(inner)[0]
         self._values = lagrange(points, inner)
-        self._slopes = lagrange(points, inner, 1) * elements / blade.length
+        self._slopes = lagrange(points, inner, 1)
 
     def strains(self, coordinates: FloatArray) -> FloatArray:
         """Return axial and bending strain, (2, ..., points)."""
-        inner, count = self._inner, (coordinates.shape[-2] - 1) // self._inner
+        inner, lengths = self._inner, self._mesh.lengths
+        count = lengths.size
         per_element = coordinates[..., inner * np.arange(count)[:, None] + np.arange(inner + 1), :]
         flat = (*coordinates.shape[:-2], inner * count, 3)
         e, e_x = (
-            np.einsum("pn,...jnc->...jpc", s, per_element).reshape(flat)
-            for s in (self._values, self._slopes)
+            np.einsum("pn,...jnc->...jpc", s, one).reshape(flat)
+            for s, one in (
+                (self._values, per_element),
+                (self._slopes, per_element / lengths[:, None, None]),
+            )
         )
         sine, cosine = np.sin(e[..., 2]), np.cos(e[..., 2])
         return np.stack((cosine * e_x[..., 0] + sine * e_x[..., 1] - 1.0, e_x[..., 2]))
@@ -123,7 +127,10 @@ class _Row:
         """Return the power (samples,) that bending and axial damping take."""
         axial, bending = rate_of(self.strains, coordinates, velocities)
         damping, at = self._mesh.blade.damping, self._mesh.sections
-        power = axial**2 @ np.repeat(damping.axial * at.axial_stiffness, self._inner)
-        power += bending**2 @ np.repeat(damping.bending * at.bending_stiffness, self._inner)
         # The points of an element, one or two, weigh the same.
-        return np.asarray(self._mesh.length / self._inner * power)
+        weights = self._mesh.lengths / self._inner
+        power = axial**2 @ np.repeat(weights * damping.axial * at.axial_stiffness, self._inner)
+        power += bending**2 @ np.repeat(
+            weights * damping.bending * at.bending_stiffness, self._inner
+        )
+        return np.asarray(power)

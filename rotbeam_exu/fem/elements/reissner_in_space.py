@@ -15,12 +15,13 @@ from analytic.exact.continuum.unit import space_unit
 from analytic.lazily import spatial
 from analytic.motion import Rotation
 from analytic.quadrature import gauss_points
+from analytic.station_section import hat
 
 from ..lazily import exudyn, items
-from ..mesh import Mesh
-from .energy_body import Assembly, add_force
+from ..mesh import Mesh, cells
+from .energy_body import Assembly, add_force, add_mass
 from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
-from .node_kinds import FrameNodes, directors, require_bare, turning_rate
+from .node_kinds import FrameNodes, directors, onto_parameters, require_bare, turning_rate
 
 _INNER, _ = gauss_points(2)
 """Where Exudyn integrates the inertia against rotation, with equal weights, as measured."""
@@ -31,15 +32,17 @@ class SpaceExact(Sheared, FrameNodes):
     """ObjectBeamGeometricallyExact: two nodes that carry r and the section, shear-deformable.
 
     The screw from one node to the other, less that of the unloaded blade, is the strain, constant
-    in the element; velocities and turning rates are linear. The nodes stand on the unloaded line
-    and along its sections: a blade may have twist, precone, prebend, sweep and a setting angle.
-    Sections have their inertia and the propeller moment, but not the trapeze effect. Damping is
-    external only, for Exudyn ignores that of strains; centers of mass and tension are on the line.
+    in the element; velocities and turning rates are linear. The nodes stand along the sections of
+    the unloaded blade, at their centers of mass, to which stiffness and inertia are moved: a blade
+    may have twist, precone, prebend, sweep, a setting angle, offsets of its centers, or a table of
+    stations. Exudyn's section couples no strains: what of the stiffness is off the diagonal is a
+    force of our own, called from Exudyn. Sections have their inertia and the propeller moment, but
+    not the trapeze effect. Damping is external only, for Exudyn ignores that of strains.
 
     Parameters
     ----------
     poisson_ratio, shear_correction : float
-        ν and k_s of the shear stiffness k_s A E/(2 (1 + ν)).
+        ν and k_s of the shear stiffness k_s A E/(2 (1 + ν)); a table of stations tells its own.
 
     Examples
     --------
@@ -67,16 +70,16 @@ class SpaceExact(Sheared, FrameNodes):
         return 16, 32, 64, 128
 
     def require_section(self, blade: Blade) -> None:
-        """Refuse a table of stations, kinks, centers off the line, and an unknown torsion."""
+        """Refuse kinks of the line, and an unknown torsion."""
         require_bare(self, blade)
-        section, line = blade.section, blade.line
-        if section.at_stations or line.kinks:
+        if blade.line.kinks:
             raise ValueError(
-                "element 'space_exact' takes sections by their ratios on a smooth line, and this "
-                f"blade has {'kinks' if line.kinks else 'a table of stations'}: take "
-                "analytic.spin_up_response, or on the command line rotbeam reference"
+                "element 'space_exact' takes a smooth line, and the line of this blade has kinks: "
+                "take analytic.spin_up_response, or on the command line rotbeam reference"
             )
-        out = section.out_of_plane
+        if blade.section.at_stations:
+            return
+        out = blade.section.out_of_plane
         torsion = None if out is None else out.torsion_ratio
         if torsion is None or math.isinf(torsion):
             raise ValueError(
@@ -85,15 +88,9 @@ class SpaceExact(Sheared, FrameNodes):
                 "blade.with_section_out_of_plane(bending_ratio, torsion_ratio) or "
                 "blade.with_shape(Tube()), or take element='space_cable' where bending_ratio is 1"
             )
-        if any(line.mass_offset) or any(line.tension_offset):
-            raise ValueError(
-                "element 'space_exact' has its centers of mass and of tension on its line, and "
-                "this blade has offsets: take blade.with_offsets(), which has none, or "
-                "analytic.spin_up_response"
-            )
 
     def lay(self, mbs: exudyn.MainSystem, blade: Blade, elements: int) -> Chain:
-        """Add `elements` beams of equal length on the unloaded line."""
+        """Add `elements` beams on the unloaded line."""
         row = _Row(self, blade, elements)
         nodes = tuple(
             mbs.AddNode(items.NodeRigidBodyEP(referenceCoordinates=one)) for one in row.reference
@@ -101,14 +98,29 @@ class SpaceExact(Sheared, FrameNodes):
         bodies = []
         for i, pair in enumerate(pairwise(nodes)):
             data: Any = exudyn.BeamSection()
-            data.stiffnessMatrix = np.diag(row.stiffness[i])
-            data.inertia = np.diag(row.inertia[i])
+            data.stiffnessMatrix = np.diag(np.diag(row.stiffness[i]))
+            data.inertia = row.inertia[i]
             data.massPerLength = row.mass[i]
             body = items.ObjectBeamGeometricallyExact(
-                nodeNumbers=list(pair), length=row.length, sectionData=data
+                nodeNumbers=list(pair), length=row.lengths[i], sectionData=data
             )
             bodies.append(mbs.AddObject(body))
-        return Chain(nodes=nodes, bodies=tuple(bodies))
+        if row.uneven.any():
+            places = np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
+            add_mass(mbs, nodes, row.add.matrix(np.asarray(np.kron(row.uneven, places), float)))
+        coupled = None
+        if row.coupling.any():
+            coupled = row.coupled_energy
+            add_force(
+                mbs, nodes,
+                force=lambda t, e, rates: -row.add.vector(row.coupled(row.add.gather(e))),
+                derivatives=lambda t, e: [(row.add.triplets(row.slope(e)), -1.0, 0.0)],
+            )  # fmt: skip
+        return Chain(nodes=nodes, bodies=tuple(bodies), elastic_energy=coupled)
+
+    def arms(self, blade: Blade, elements: int) -> FloatArray:
+        """Return the places of the centers of mass, (nodes, 3)."""
+        return _Row(self, blade, elements).arms
 
     def add_spin_forces(
         self, mbs: exudyn.MainSystem, chain: Chain, blade: Blade, rotation: Rotation
@@ -137,8 +149,11 @@ class SpaceExact(Sheared, FrameNodes):
         add_force(mbs, chain.nodes, force=force, derivatives=derivatives)
 
     def axial_strain(self, blade: Blade, coordinates: FloatArray) -> FloatArray:
-        """Strain along the normal of the sections, of each element."""
-        return _Row(self, blade, coordinates.shape[-2] - 1).stretch(coordinates)
+        """Strain of the line along the normal of the sections, of each element."""
+        row = _Row(self, blade, coordinates.shape[-2] - 1)
+        strain = row.strains(row.add.gather(coordinates.reshape(*coordinates.shape[:-2], -1)))
+        arms = 0.5 * (row.arms[:-1] + row.arms[1:])
+        return np.asarray(strain[..., 0] + np.cross(arms, strain[..., 3:])[..., 0])
 
     def energy_and_momentum(
         self, blade: Blade, mass: Any, turning: Any, coordinates: FloatArray,
@@ -149,8 +164,8 @@ class SpaceExact(Sheared, FrameNodes):
         _, spin, inertia = row.turning(*(row.add.gather(e.reshape(len(e), -1)) for e in states))
         moment = (inertia @ spin[..., None])[..., 0]
         kinetic, momentum = super().energy_and_momentum(blade, mass, turning, *states, rate)
-        kinetic += 0.25 * row.length * np.sum(spin * moment, axis=(1, 2, 3))
-        return kinetic, momentum + 0.5 * row.length * np.sum(moment[..., 2], axis=(1, 2))
+        kinetic += 0.25 * np.sum(spin * moment, axis=(2, 3)) @ row.lengths
+        return kinetic, momentum + 0.5 * np.sum(moment[..., 2], axis=2) @ row.lengths
 
 
 _TURNS = [3, 4, 5, 6, 10, 11, 12, 13]
@@ -163,46 +178,122 @@ _STEPS = _STEP * np.stack((np.eye(14)[_TURNS], -np.eye(14)[_TURNS]))
 
 
 class _Row:
-    """A row of elements: its unloaded line, sections, strains and inertia against rotation.
+    """A row of elements: its unloaded blade, sections, strains and inertia against rotation.
 
-    Stiffness (elements, 6) is EA, GA, GA, GJ, EI out of the plane and EI in it; inertia
-    (elements, 3) is ρI_p, ρI out of the plane and ρI in it [kg m].
+    Stiffness (elements, 6, 6), with strains in the order ε, γ2, γ3, κ1, κ2, κ3, and inertia
+    (elements, 3, 3) are about the centers of mass, which are at `arms` (nodes, 3) from the line in
+    axes of the section.
     """
 
     def __init__(self, element: SpaceExact, blade: Blade, elements: int) -> None:
         mesh, unit = Mesh(blade=blade, elements=elements), space_unit(blade)
-        self.length, frame = mesh.length, element.line_frame(blade)
-        place, sections = unit.unloaded(np.linspace(0.0, 1.0, elements + 1))
-        r = blade.length * (unit.clamp + place) @ frame.T
-        p = spatial.transform.Rotation.from_matrix(frame @ sections).as_quat()[:, [3, 0, 1, 2]]
+        self.lengths, frame, L = mesh.lengths, element.line_frame(blade), blade.length
+        theory = element.theory_of(blade)
+
+        def weight(x: FloatArray) -> FloatArray:
+            # Of the energy of moments that go with (1 - x)², as those of a load on all the blade.
+            return np.asarray((1.0 - x) ** 4)[:, None, None]
+
+        def soft(x: FloatArray) -> FloatArray:
+            onto = np.tile(np.eye(6), (x.size, 1, 1))
+            onto[:, :3, 3:] = -hat(unit.inertia_about(x, blade.slenderness)[0].T)
+            at = unit.flexibility(x, theory, blade.slenderness)
+            return weight(x) * (onto @ at @ np.swapaxes(onto, 1, 2))
+
+        def spread(x: FloatArray) -> FloatArray:
+            xi = cells(mesh.ends, x)[1]
+            both = np.stack((1.0 - xi, xi), axis=1)
+            return mesh.along(x).mass_per_length[:, None, None] * both[:, :, None] * both[:, None]
+
+        def about(x: FloatArray) -> FloatArray:
+            return np.moveaxis(unit.inertia_about(x, blade.slenderness)[1], -1, 0)
+
+        lever = np.repeat([1.0, L], 3)
+        scale = blade.bending_stiffness / L**2 * np.outer(lever, lever)
+        self.stiffness = scale * np.linalg.inv(mesh.mean(soft) / mesh.mean(weight))
+        self.coupling = self.stiffness * (1.0 - np.eye(6))
+        self.mass = mesh.sections.mass_per_length
+        # Of functions of both ends; those of the mean mass are Exudyn's.
+        even = np.multiply.outer(self.mass, [[2.0, 1.0], [1.0, 2.0]]) / 6.0
+        uneven = mesh.mean(spread) - even
+        round_off = np.abs(uneven) < 1e-12 * even
+        self.uneven = np.where(round_off, 0.0, uneven) * self.lengths[:, None, None]
+        self.inertia = blade.mass_per_length * L**2 * mesh.mean(about)
+        self.arms = L * unit.inertia_about(mesh.ends, blade.slenderness)[0].T
+        place, sections = unit.unloaded(mesh.ends)
+        sections = frame @ sections
+        r = L * (unit.clamp + place) @ frame.T + (sections @ self.arms[..., None])[..., 0]
+        p = spatial.transform.Rotation.from_matrix(sections).as_quat()[:, [3, 0, 1, 2]]
         self.reference = np.hstack((r, p))
-        at = mesh.sections
-        EA, EI, self.mass = at.axial_stiffness, at.bending_stiffness, at.mass_per_length
-        GA, bent = element.shear_share * EA, unit.flap * EI
-        self.stiffness = np.stack((EA, GA, GA, unit.torsion * EI, bent, EI), axis=1)
-        inner, weights = gauss_points(8)
-        x = (np.arange(elements)[:, None] + inner).ravel() / elements
-        _, about = unit.inertia_about(x, blade.slenderness)
-        means = weights @ np.diagonal(about).reshape(elements, -1, 3)
-        self.inertia = blade.mass_per_length * blade.length**2 * means
         self.add = Assembly(elements, inner=1, per_node=7)
-        self._unloaded = self._pitches(self.reference)
+        self._unloaded: FloatArray = np.zeros(6)
+        self._unloaded = self.strains(self.add.gather(self.reference.ravel()))
 
-    def stretch(self, coordinates: FloatArray) -> FloatArray:
-        """Return the axial strain, (..., elements)."""
-        return (self._pitches(coordinates) - self._unloaded) / self.length
+    def strains(self, e: FloatArray) -> FloatArray:
+        """Return the strains (..., elements, 6) of coordinates (..., elements, 14)."""
+        return self._strains(*self._screws(e)[1:4])
 
-    def _pitches(self, coordinates: FloatArray) -> FloatArray:
-        """Return the first of the logarithms in SE(3) of the motions from node to node."""
-        r, turn = coordinates[..., :3], directors(coordinates[..., 3:])
-        to_local = np.swapaxes(turn[..., :-1, :, :], -1, -2)
-        d = (to_local @ np.diff(r, axis=-2)[..., None])[..., 0]
-        psi = _rotation_vector(to_local @ turn[..., 1:, :, :])
-        angle = np.maximum(np.linalg.norm(psi, axis=-1, keepdims=True), 1e-4)
-        # u = d - ψ×d/2 + [1 - (ψ/2) cot(ψ/2)]/ψ² ψ×(ψ×d)
-        across = np.cross(psi, d)
-        bent = (1.0 - 0.5 * angle / np.tan(0.5 * angle)) / angle**2
-        return np.asarray((d - 0.5 * across + bent * np.cross(psi, across))[..., 0])
+    def _strains(self, d: FloatArray, psi: FloatArray, bent: FloatArray) -> FloatArray:
+        across = _cross(psi, d)
+        u = d - 0.5 * across + bent * _cross(psi, across)
+        return np.concatenate((u, psi), axis=-1) / self.lengths[:, None] - self._unloaded
+
+    def _screws(self, e: FloatArray) -> tuple[FloatArray, ...]:
+        """Return frames of the ends, distance d and rotation ψ in the first, b and b'/ψ.
+
+        The logarithm in SE(3) is u = d - ψ×d/2 + b ψ×(ψ×d) and ψ, b = [1 - (ψ/2) cot(ψ/2)]/ψ².
+        """
+        q = e.reshape(*e.shape[:-1], 2, 7)
+        turn, p = directors(q[..., 3:]), q[..., 3:]
+        d = _times(np.swapaxes(turn[..., 0, :, :], -1, -2), q[..., 1, :3] - q[..., 0, :3])
+        (a, u), (b, v) = ((p[..., i, :1], p[..., i, 1:]) for i in (0, 1))
+        cosine, sine = a * b + _dot(u, v), a * v - b * u - _cross(u, v)
+        sine = np.where(cosine < 0.0, -sine, sine)  # of p and -p the rotation is the same
+        size = np.maximum(np.sqrt(_dot(sine, sine)), 1e-300)
+        psi = 2.0 * np.arctan2(size, np.abs(cosine)) / size * sine
+        square = _dot(psi, psi)
+        # Of their series: below 1e-2 the rest is 1e-13 of b, and 1e-8 of its change.
+        angle = np.sqrt(np.maximum(square, 1e-4))
+        half = 0.5 * angle
+        bent = (1.0 - half / np.tan(half)) / angle**2
+        change = ((half / np.sin(half)) ** 2 + half / np.tan(half) - 2.0) / angle**4
+        small = square < 1e-4
+        return (
+            turn, d, psi, np.where(small, (1.0 + square / 60.0) / 12.0, bent),
+            np.where(small, 1.0 / 360.0 + square / 7560.0, change),
+        )  # fmt: skip
+
+    def coupled_energy(self, coordinates: FloatArray) -> FloatArray:
+        """Return the energy (samples,) of the stiffness off the diagonal, ½ l ε·C ε."""
+        strain = self.strains(self.add.gather(coordinates.reshape(len(coordinates), -1)))
+        stress = _times(self.coupling, strain)
+        return np.asarray(0.5 * np.sum(strain * stress, axis=-1) @ self.lengths)
+
+    def coupled(self, e: FloatArray) -> FloatArray:
+        """Return the gradient (..., elements, 14) of the same."""
+        turn, d, psi, bent, change = self._screws(e)
+        stress = _times(self.coupling, self._strains(d, psi, bent))
+        n, m = stress[..., :3], stress[..., 3:]
+        once = _cross(psi, n)
+        twice = _cross(psi, once)
+        force = n + 0.5 * once + bent * twice
+        m = m - 0.5 * _cross(d, n) + change * _dot(twice, d) * psi
+        m = m + bent * (_dot(psi, d) * n + _dot(psi, n) * d - 2.0 * _dot(d, n) * psi)
+        once = _cross(psi, m)
+        end = m - 0.5 * once + bent * _cross(psi, once)
+        start = _cross(force, d)
+        start -= _times(np.swapaxes(turn[..., 0, :, :], -1, -2), _times(turn[..., 1, :, :], end))
+        along = _times(turn[..., 0, :, :], force)
+        p = e.reshape(*e.shape[:-1], 2, 7)[..., 3:]
+        torques = onto_parameters(p, np.stack((start, end), axis=-2))
+        both = np.concatenate((np.stack((-along, along), axis=-2), torques), axis=-1)
+        return np.asarray(both.reshape(e.shape))
+
+    def slope(self, e: FloatArray) -> FloatArray:
+        """Return the derivative (elements, 14, 14) of `coupled` at all coordinates."""
+        at, steps = self.add.gather(e), _STEP * np.eye(14)[:, None]
+        change = self.coupled(at + steps) - self.coupled(at - steps)
+        return np.moveaxis(change, 0, -1) / (2.0 * _STEP)
 
     def turning(
         self, e: FloatArray, rates: FloatArray
@@ -219,7 +310,7 @@ class _Row:
             (_INNER[:, None] * psi[..., None, :]).reshape(-1, 3)
         )
         at = turn[..., :1, :, :] @ part.as_matrix().reshape(*psi.shape[:-1], 2, 3, 3)
-        inertia = (at * self.inertia[:, None, None, :]) @ np.swapaxes(at, -1, -2)
+        inertia = at @ self.inertia[:, None] @ np.swapaxes(at, -1, -2)
         return turn, _VALUES @ ends, inertia
 
     def spin_forces(self, e: FloatArray, rates: FloatArray, w: float, w_dot: float) -> FloatArray:
@@ -235,12 +326,11 @@ class _Row:
 
         torque = np.cross(spin, times(spin)) - np.cross(spin + W, times(spin + W))
         torque -= times(W_dot + np.cross(W, spin))
-        ends = 0.5 * self.length * _VALUES.T @ torque
+        ends = 0.5 * self.lengths[:, None, None] * _VALUES.T @ torque
         p = e.reshape(*e.shape[:-1], 2, 7)[..., 3:]
         local = (np.swapaxes(turn, -1, -2) @ ends[..., None])[..., 0]
         forces = np.zeros((*p.shape[:-1], 7))
-        forces[..., 3] = -2.0 * np.sum(p[..., 1:] * local, axis=-1)
-        forces[..., 4:] = 2.0 * (p[..., :1] * local + np.cross(p[..., 1:], local))
+        forces[..., 3:] = onto_parameters(p, local)
         return forces.reshape(*e.shape[:-1], 14)
 
 
@@ -252,3 +342,21 @@ def _rotation_vector(turn: FloatArray) -> FloatArray:
     """Return the rotation vectors (..., 3) of rotations (..., 3, 3)."""
     flat = spatial.transform.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
     return np.asarray(flat.reshape(turn.shape[:-1]))
+
+
+_NEXT, _LAST = [1, 2, 0], [2, 0, 1]
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return a × b of vectors (..., 3), in a fifth of NumPy's time where they are few."""
+    return a[..., _NEXT] * b[..., _LAST] - a[..., _LAST] * b[..., _NEXT]
+
+
+def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return a · b of vectors (..., 3), (..., 1)."""
+    return np.asarray(np.einsum("...i,...i->...", a, b)[..., None])
+
+
+def _times(matrix: FloatArray, vector: FloatArray) -> FloatArray:
+    """Return matrices (..., n, n) times vectors (..., n)."""
+    return np.asarray((matrix @ vector[..., None])[..., 0])
