@@ -115,6 +115,16 @@ class Beam(Blade):
             density=positive("mass_per_length", mass_per_length, "kg/m"),
         )
 
+    def in_units(self, length: float, mass: float, time: float) -> Beam:
+        """Return the beam in units of length [m], mass [kg] and time [s]."""
+        return Beam(
+            length=self.length / length,
+            area=self.area / length**2,
+            second_moment=self.second_moment / length**4,
+            youngs_modulus=self.youngs_modulus * length * time**2 / mass,
+            density=self.density * length**3 / mass,
+        )
+
     @property
     def gyration(self) -> Gyration:
         """I/A and A."""
