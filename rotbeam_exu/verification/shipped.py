@@ -50,7 +50,8 @@ def _stated(value: Any) -> dict[str, Any]:
 
     A blade that learns to have more then states the same as before.
     """
-    parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
+    told = (one for one in fields(value) if one.init)  # others follow from these
+    parts = ((one.name, getattr(value, one.name), one.default) for one in told)
     return {name: part for name, part, default in parts if part != default or not _is_nothing(part)}
 
 
