@@ -12,6 +12,7 @@ from functools import partial, singledispatch
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analytic import AmplitudeNotReachedError, Blade
 from analytic.exact.continuum.state import SectionLoads
@@ -123,7 +124,7 @@ def frames_of(*results: Any) -> dict[str, Any]:
 
 
 @singledispatch
-def _described(result: Any) -> xr.Dataset:
+def _described(result: object) -> xr.Dataset:
     if isinstance(result, xr.Dataset):
         return result
     raise TypeError(f"no Dataset is known of a {type(result).__name__}")
@@ -194,7 +195,7 @@ def _(response: LinearResponse) -> xr.Dataset:
     )
 
 
-def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
+def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, object]:
     """Return beam and motion as attributes."""
     motion = response.spin_up
     return {
@@ -230,7 +231,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
         if response.blade.section.out_of_plane is None or response._in_space:
             return data
         return data.assign_attrs(planar=f"Stability is about {response.covers}")
-    growth = {
+    growth: dict[str, tuple[str, ArrayLike, str]] = {
         "growth_rate": ("point", found.growth_rate, GROWTH),
         "kind": ("point", list(found.kind), "how it grows"),
     }
@@ -277,7 +278,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
     return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **known})
 
 
-def response_inputs(blade: Blade, load: Load, omega: float | None) -> dict[str, Any]:
+def response_inputs(blade: Blade, load: Load, omega: float | None) -> dict[str, object]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
     return {
         **blade_attributes(blade),

@@ -22,7 +22,8 @@ from analytic.input_checks import finite_array
 from analytic.motion import Motion
 
 from ..files.results import whole_file
-from .cases import CASES, VERSION, Asked, Case
+from .case import Asked, Case
+from .cases import CASES, VERSION
 from .judgement import THRESHOLDS
 from .references import reference
 from .submission_files.runs import FARTHEST
@@ -239,7 +240,7 @@ def cases_csv() -> str:
     return "\n".join([*lines, ""])
 
 
-def _cell(value: Any) -> str:
+def _cell(value: object) -> str:
     if value is None:
         return ""
     return " ".join(map(repr, value)) if isinstance(value, list) else str(value)

@@ -17,7 +17,8 @@ from analytic.input_checks import RotbeamWarning
 from analytic.theory import Theory
 from analytic.threads import one_thread
 
-from ..cases import CASES, Asked, Case
+from ..case import Asked, Case
+from ..cases import CASES
 from ..judgement import THRESHOLDS, Judgement, Progress, judged
 from ..outcomes import Finding, Outcome
 from ..references import reference
@@ -57,7 +58,7 @@ def mistakes_in(
                 found.append(one)
             if one is not None and one.name in RAMPS:
                 ramps = (one.name,)  # a code has one ramp in all cases
-            elif one is None and seen and case.is_spun_up and not case.in_space:
+            elif one is None and seen and case.is_spun_up and case.is_quick:
                 off = largest(seen.differences[seen.finest]) > SMALL
                 ramps = () if off else ramps  # tried in vain
     return found

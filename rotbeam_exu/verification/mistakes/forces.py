@@ -18,7 +18,7 @@ from analytic.exact.continuum.state import Driven
 from analytic.exact.driven.transient import grid_of, integrated
 from analytic.methods.system import Tangent
 
-from ..cases import Case
+from ..case import Case
 
 _FUNCTIONS = 12, 6
 _STEP = 0.08  # in units of 1/√(EI/(mL³))
@@ -63,7 +63,7 @@ class Lacking(Continuum):
 
     def _sum(self, parts: Iterable[FloatArray]) -> FloatArray:
         weighted = zip(self.rates.values(), parts, strict=True)
-        return np.sum([weight * part for weight, part in weighted], axis=0)
+        return np.asarray(np.sum([weight * part for weight, part in weighted], axis=0))
 
 
 def without(force: str, case: Case, time: FloatArray) -> FloatArray:
