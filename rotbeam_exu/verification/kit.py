@@ -195,17 +195,17 @@ def row_of(case: Case) -> dict[str, Any]:
         "count": case.count if case.asked is Asked.FREQUENCIES else None,
         "amplitudes": list(case.amplitudes),
     }
-    for name, told in _told(row).items():
+    for name, read in _read_back(row).items():
         has = getattr(blade if hasattr(blade, name) else case, name)
-        if has != told:
+        if has != read:
             raise ValueError(
-                f"case {case.name} has {name} = {has!r}, of which cases.csv would tell {told!r}: "
-                "name what is missing in row_of, _told and UNITS"
+                f"case {case.name} has {name} = {has!r}, of which cases.csv would tell {read!r}: "
+                "name what is missing in row_of, _read_back and UNITS"
             )
     return row
 
 
-def _told(row: dict[str, Any]) -> dict[str, Any]:
+def _read_back(row: dict[str, Any]) -> dict[str, Any]:
     """Return the fields of the blade, motion and loads as a reader of a row takes them."""
     # A cell holds a number: what changes along the blade is not told.
     EA, EI, rhoA = (float(np.ravel(row[name])[0]) for name in ("EA", "EI", "rhoA"))
