@@ -18,7 +18,7 @@ from analytic.theory import BERNOULLI_EULER, Theory
 from .. import __version__
 
 Attributes = Mapping[Any, Any]
-"""Of a Dataset, which have no types."""
+"""Attributes of a Dataset, which have no types."""
 
 _UNKNOWN = "unknown: what is out of the plane of bending is not computed, and zero"
 
