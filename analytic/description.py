@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import fields
-from typing import Any, TypeVar
+from typing import TypeVar
 
 _KINDS: dict[str, type[Described]] = {}
 _KIND = "kind"
@@ -26,7 +26,7 @@ class Described:
         If a class is defined whose name another kind has.
     """
 
-    def __init_subclass__(cls, *, abstract: bool = False, **rest: Any) -> None:
+    def __init_subclass__(cls, *, abstract: bool = False, **rest: object) -> None:
         super().__init_subclass__(**rest)
         if abstract:
             return
@@ -39,7 +39,7 @@ class Described:
             )
         _KINDS[cls.__name__] = cls
 
-    def _keep(self, **checked: Any) -> None:
+    def _keep(self, **checked: object) -> None:
         """Set fields, of a frozen dataclass too, to what checks have made of them."""
         for name, value in checked.items():
             object.__setattr__(self, name, value)
@@ -53,7 +53,7 @@ def kinds_of(family: type[ValueT]) -> dict[str, type[ValueT]]:
     return {name: cls for name, cls in _KINDS.items() if issubclass(cls, family)}
 
 
-def describe(value: object) -> dict[str, Any]:
+def describe(value: object) -> dict[str, object]:
     """Return kind and fields of a value as plain numbers, texts and lists; or refuse it."""
     cls, told = type(value), _told(value)
     try:
@@ -68,7 +68,7 @@ def describe(value: object) -> dict[str, Any]:
     return told
 
 
-def from_description(told: Mapping[str, Any], family: type[ValueT]) -> ValueT:
+def from_description(told: Mapping[str, object], family: type[ValueT]) -> ValueT:
     """Return the value that `describe` told of; refuse one of no known kind of the family."""
     kind = told.get(_KIND)
     cls = kinds_of(family).get(str(kind))
@@ -82,7 +82,7 @@ def from_description(told: Mapping[str, Any], family: type[ValueT]) -> ValueT:
         raise ValueError(f"this is no {kind} as {_place(cls)} defines it: {error}") from error
 
 
-def _told(value: object) -> dict[str, Any]:
+def _told(value: object) -> dict[str, object]:
     cls = type(value)
     if _KINDS.get(cls.__name__) is not cls or "__dataclass_fields__" not in vars(cls):
         raise TypeError(
@@ -93,13 +93,13 @@ def _told(value: object) -> dict[str, Any]:
     return {_KIND: cls.__name__, **{name: _plain(part) for name, part in parts}}
 
 
-def _plain(part: object) -> Any:
+def _plain(part: object) -> object:
     if isinstance(part, Described):
         return _told(part)
     return list(map(_plain, part)) if isinstance(part, tuple | list) else part
 
 
-def _value(part: Any) -> Any:
+def _value(part: object) -> object:
     if isinstance(part, Mapping):
         return from_description(part, Described)
     return tuple(map(_value, part)) if isinstance(part, list) else part

@@ -53,7 +53,7 @@ class Load(Described, abstract=True):
     varied: ClassVar[Literal["frequency", "speed"] | None] = None
     frequency: float | None = None
 
-    def __init_subclass__(cls, **rest: Any) -> None:
+    def __init_subclass__(cls, **rest: bool) -> None:
         super().__init_subclass__(**rest)
         words = re.sub("(?<=.)(?=[A-Z])", " ", cls.__name__).lower()
         article = "an" if words[0] in "aeiou" else "a"

@@ -25,13 +25,13 @@ def instants(t: Any) -> Any:
 class Rotation(Protocol):
     """A prescribed rotation: angle, rate and acceleration as functions of time."""
 
-    def angle(self, t: Any) -> Any:
+    def angle(self, t: NumbersT, /) -> NumbersT:
         """Return the angle [rad] at `t` [s]."""
 
-    def rate(self, t: Any) -> Any:
+    def rate(self, t: NumbersT, /) -> NumbersT:
         """Return its rate [rad/s]."""
 
-    def acceleration(self, t: Any) -> Any:
+    def acceleration(self, t: NumbersT, /) -> NumbersT:
         """Return its acceleration [rad/s²]."""
 
 

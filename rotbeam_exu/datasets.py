@@ -12,8 +12,10 @@ from functools import partial, singledispatch
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from analytic import AmplitudeNotReachedError, Blade
+from analytic.arrays import FloatArray
 from analytic.exact.continuum.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
@@ -40,7 +42,7 @@ _FORCES = {"x": "tension", "y": "shear force", "z": "shear force out of the plan
 _MOMENTS = {"x": "torque", "y": "bending moment out of the plane", "z": "bending moment"}
 
 
-def dataset_of(*results: Any) -> xr.Dataset:
+def dataset_of(*results: object) -> xr.Dataset:
     """Return results as one Dataset, each variable with its unit and its long name.
 
     Parameters
@@ -99,7 +101,7 @@ def _require_together(first: xr.Dataset, other: xr.Dataset) -> None:
             raise ValueError(f"two results differ in their numbers of {name}: {_APART}")
 
 
-def frames_of(*results: Any) -> dict[str, Any]:
+def frames_of(*results: object) -> dict[str, Any]:
     """Return results as tidy DataFrames of pandas, one for each set of dims, by its first column.
 
     Dims are columns, named beside the numbers; `DataFrame.attrs` has units. What has no dims is one
@@ -123,7 +125,7 @@ def frames_of(*results: Any) -> dict[str, Any]:
 
 
 @singledispatch
-def _described(result: Any) -> xr.Dataset:
+def _described(result: object) -> xr.Dataset:
     if isinstance(result, xr.Dataset):
         return result
     raise TypeError(f"no Dataset is known of a {type(result).__name__}")
@@ -194,7 +196,7 @@ def _(response: LinearResponse) -> xr.Dataset:
     )
 
 
-def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
+def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, object]:
     """Return beam and motion as attributes."""
     motion = response.spin_up
     return {
@@ -205,7 +207,7 @@ def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, Any]:
     }
 
 
-def _root_loads(response: SpinUpResponse) -> dict[str, tuple[Any, str]]:
+def _root_loads(response: SpinUpResponse) -> dict[str, tuple[FloatArray, str]]:
     """Return tension, shear forces and moments at the root with their labels.
 
     By the clamp's axes, as of a run, not by those of its section, which may be set.
@@ -231,7 +233,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
         if response._in_space or (section.out_of_plane is None and not section.knows_space):
             return data
         return data.assign_attrs(planar=f"Stability is about {response.covers}")
-    growth = {
+    growth: dict[str, tuple[str, ArrayLike, str]] = {
         "growth_rate": ("point", found.growth_rate, GROWTH),
         "kind": ("point", list(found.kind), "how it grows"),
     }
@@ -249,7 +251,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
     # The weight across the blade is greatest, and negative, at θ = 0.
     phase = f"lag of the first harmonic of q behind {'cos θ' if weight else 'the load'} [rad]"
     harmonics = ("point", "harmonic")
-    variables: dict[str, tuple[Any, Any, str]] = {
+    variables: dict[str, tuple[str | tuple[str, ...], ArrayLike, str]] = {
         "frequency": ("point", response.frequency, f"{swept} [rad/s]"),
         "amplitude": ("point", response.amplitude, "amplitude |q|/L"),
         "phase": ("point", response.phase, phase),
@@ -278,7 +280,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
     return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **known})
 
 
-def response_inputs(blade: Blade, load: Load, omega: float | None) -> dict[str, Any]:
+def response_inputs(blade: Blade, load: Load, omega: float | None) -> dict[str, object]:
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
     return {
         **blade_attributes(blade),

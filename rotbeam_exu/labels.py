@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+
+from numpy.typing import ArrayLike
 
 from .lazily import xr
 
@@ -24,9 +25,9 @@ def labeled(label: str) -> dict[str, str]:
 
 
 def dataset(
-    variables: Mapping[str, tuple[Any, Any, str]],
-    coords: Mapping[str, Any],
-    attrs: Mapping[str, Any] | None = None,
+    variables: Mapping[str, tuple[str | tuple[str, ...], ArrayLike, str]],
+    coords: Mapping[str, object],
+    attrs: Mapping[str, object] | None = None,
 ) -> xr.Dataset:
     """Return a Dataset of labeled numbers: of dims, values and label by name.
 

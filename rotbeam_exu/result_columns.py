@@ -34,7 +34,7 @@ Column = tuple[Dims, str, Callable[[Any], Any]]
 """Dims, label with unit, and how the values come from the result."""
 
 
-def of_columns(columns: Mapping[str, Column], known: tuple[str, ...], result: Any) -> xr.Dataset:
+def of_columns(columns: Mapping[str, Column], known: tuple[str, ...], result: object) -> xr.Dataset:
     """Return the Dataset of a result; modes and harmonics count from 1.
 
     `known` are the attributes about all of it; its blade and theory are kept where it has them.

@@ -24,7 +24,8 @@ from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 from rotbeam_exu.paper import RAMP_TIMES, SPEEDS
 from rotbeam_exu.verification import shipped
-from rotbeam_exu.verification.cases import CASES, VERSION, Asked, Case, spin_up_case
+from rotbeam_exu.verification.case import Asked, Case
+from rotbeam_exu.verification.cases import CASES, VERSION, spin_up_case
 from rotbeam_exu.verification.references import Sampled, row_of, sampled_history
 
 SPACING = 5e-3

@@ -23,7 +23,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from analytic.arrays import ComplexArray, FloatArray
-from rotbeam_exu.verification.cases import CASES, Case
+from rotbeam_exu.verification.case import Case
+from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import Judgement, judged
 from rotbeam_exu.verification.kit import STATIC, cases_csv
 from rotbeam_exu.verification.submission import Declaration, Row, Run, Submission

@@ -6,7 +6,7 @@ import itertools
 import json
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -181,8 +181,10 @@ def _spun_up(
     one_more: Callable[[], None],
 ) -> tuple[FloatArray, FloatArray]:
     """Return the times of the first run [s], and q(t) of all at these [m], (runs, times)."""
-    cases: Any = {(n, h): replace(case, elements=n, step=h) for n, h in resolutions}
-    found: dict[Any, xr.DataArray] = {}
+    cases: dict[tuple[float, float], RunCase] = {
+        (n, h): replace(case, elements=n, step=h) for n, h in resolutions
+    }
+    found: dict[tuple[float, float], xr.DataArray] = {}
     for at, result in solved(cases, store, None, jobs):
         if result.attrs["failure"]:
             which = f"{at[0]} elements with a step of {at[1]:g} s"
@@ -194,7 +196,9 @@ def _spun_up(
     return time, np.array([CubicSpline(found[at]["time"], found[at])(time) for at in resolutions])
 
 
-def _size(sizes: Any, parts: FloatArray, power: float, tolerance: float) -> float:
+def _size(
+    sizes: Sequence[float] | FloatArray, parts: FloatArray, power: float, tolerance: float
+) -> float:
     """Return the mesh, or 1/step, at which a part of the error meets the tolerance.
 
     Between runs by their errors, beyond the finest by a power; of what is coarser than the coarsest

@@ -106,7 +106,7 @@ def figure_4() -> xr.Dataset:
     return xr.concat(orbits, dim="case", join="outer").assign(cases)
 
 
-def _numerics(run: xr.Dataset) -> dict[str, Any]:
+def _numerics(run: xr.Dataset) -> dict[str, object]:
     """Return how a run was computed."""
     names = ("elements", "element", "element_options", "step", "frame")
     return {name: run.attrs[name] for name in names}

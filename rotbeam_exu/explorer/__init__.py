@@ -8,7 +8,6 @@ from __future__ import annotations
 import base64
 import json
 from importlib import resources
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -54,7 +53,7 @@ def _part(name: str) -> str:
     return resources.files(__name__).joinpath("page", name).read_text(encoding="utf-8")
 
 
-def _document(data: xr.Dataset) -> dict[str, Any]:
+def _document(data: xr.Dataset) -> dict[str, object]:
     whole = (
         "omega", "a", "omega_n", "lambda_omega", "kappa", "h2", "lambda_x", "exact_omega_n",
         "exact_lambda_omega", "exact_frequency", "fe_omega", "fe_amplitude", "fe_frequency",
@@ -79,11 +78,11 @@ def _document(data: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def _rounded(values: xr.DataArray) -> dict[str, Any]:
+def _rounded(values: xr.DataArray) -> dict[str, object]:
     return _packed(np.rint((values / _STEP).fillna(_UNKNOWN)), "int16")
 
 
-def _packed(values: ArrayLike, dtype: str) -> dict[str, Any]:
+def _packed(values: ArrayLike, dtype: str) -> dict[str, object]:
     """Return an array as base64 of its little-endian bytes, which a browser reads at once."""
     array = np.asarray(values).astype(np.dtype(dtype).newbyteorder("<"))
     return {

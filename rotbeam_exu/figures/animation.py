@@ -26,7 +26,7 @@ from ..lazily import xr
 from ..paper import BLUE, RED
 from ..runs.attributes import beam_of, motion_of
 from ..runs.shape import in_space
-from .style import STYLE, fitting_units, new_figure, prefix_of, quantity, shade_ramp
+from .style import STYLE, figure_of, fitting_units, new_figure, prefix_of, quantity, shade_ramp
 
 _LETTERS: Any = dict.fromkeys(
     ("font.size", "axes.labelsize", "axes.titlesize", "xtick.labelsize", "ytick.labelsize"), 11.0
@@ -125,7 +125,7 @@ def animate(
         history.set(xlim=(0.0, time[-1]), xlabel="time [s]")
         fitting_units(history)
         words = history.set_title("", loc="left", family="monospace")
-        figure: Any = history.get_figure(root=True)
+        figure = figure_of(history)
 
     def draw(n: int) -> list[Any]:
         for move in moving:

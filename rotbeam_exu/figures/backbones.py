@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 
 from ..paper import MODEL_NAMES
 from .paper_figure import EXACT, models, numerics, paper_figure, spin_ups
-from .style import column, columns, cycle, house_axes, label, model_line, typeset
+from .style import column, columns, cycle, figure_of, house_axes, label, model_line, typeset
 
 _MESHES: dict[str, tuple[str, Any]] = {
     "paper": ("16 elements", {"marker": "s", "ms": 4.5, "mfc": "white"}),
@@ -107,7 +107,7 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
             which = f"{letter}) " if count > 1 else ""
             panel.set_title(f"{which}ω = {float(omega):g} rad/s", loc="left")
         handles, names = axes[0].get_legend_handles_labels()
-        figure: Any = axes[0].get_figure(root=True)
+        figure = figure_of(axes[0])
         if figure.get_figwidth() > 6.0:
             names = [f"{n}: {MODEL_NAMES[n]}" if n in MODEL_NAMES else n for n in names]
         figure.legend(handles, names, loc="outside lower center", ncols=3, columnspacing=1.4)

@@ -17,7 +17,7 @@ from ..verification.convergence import Convergence
 from ..verification.history import Histories
 from ..verification.judgement import THRESHOLDS, Judgement
 from ..verification.submission import Run
-from .style import STYLE, columns, cycle, ink, new_figure
+from .style import STYLE, columns, cycle, figure_of, ink, new_figure
 
 _SYMBOLS = {
     "linear frequency": "$ω_n$", "history": "$q(t)$", "amplitude": "$a$",
@@ -72,7 +72,7 @@ def svg(axes: Axes) -> str:
     """Return the figure of `axes` as an SVG element for a page, small, and close it."""
     import matplotlib.pyplot as plt  # noqa: PLC0415
 
-    figure: Any = axes.get_figure(root=True)
+    figure = figure_of(axes)
     text = io.StringIO()
     # Letters as text, in one font: curves of letters, or all fonts' names, are most of a file.
     letters: Any = {"svg.fonttype": "none", "font.sans-serif": ["DejaVu Sans", "Arial"]}
@@ -105,7 +105,7 @@ def _history(histories: Histories) -> Axes:
     above.plot(time, mine, color=ink(ORANGE), lw=0.9, label=_name(finest))
     above.axhline(0.0, color="0.8", lw=0.5, zorder=0)
     name = histories.case.columns[worst]
-    above.set_ylabel(f"{name if histories.case.in_space else '$q$'} [{_UNITS[name]}]")
+    above.set_ylabel(f"{'$q$' if name == 'q' else name} [{_UNITS[name]}]")
     above.legend(loc="upper right", ncols=2, bbox_to_anchor=(1.0, 1.14))
     for run, color in _colors(histories).items():
         every = max(1, run.time.size // _MOST_POINTS)
@@ -126,7 +126,7 @@ def _name(run: Run) -> str:
     return f"{run.elements} × {run.step_in_words}"
 
 
-def _colors(histories: Histories) -> dict[Run, Any]:
+def _colors(histories: Histories) -> dict[Run, object]:
     """Return a color for each run, from light to dark, the finest last."""
     runs = sorted(histories.runs, key=lambda run: run.fineness)
     shades = np.linspace(0.3, 1.0, len(runs))

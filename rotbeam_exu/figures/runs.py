@@ -15,6 +15,7 @@ from .style import (
     column,
     columns,
     cycle,
+    figure_of,
     house_axes,
     ink,
     inset,
@@ -128,7 +129,8 @@ def figure_4(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axe
     width, height = (1.08 * float(np.abs(data[name]).max()) for name in ("q_bar", "q_dot_bar"))
     keys = list(zip(data["omega"].values.tolist(), data["ramp_time"].values.tolist(), strict=True))
     fresh = iter(zip(cycle(), _DASHES_OF_ORBITS, strict=False))
-    looks: dict[Any, Any] = {key: ("0.4", "-") for key in keys if keys.count(key) > 1}
+    looks: dict[object, tuple[str, Any]]
+    looks = {key: ("0.4", "-") for key in keys if keys.count(key) > 1}
     with house_axes(ax, columns(), 2.9, ncols=2) as axes:
         for case, key in enumerate(keys):
             if key not in looks:
@@ -198,7 +200,7 @@ def figure_15(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
         axes.set_title(f"a) ω = {data.attrs['omega']:g} rad/s, a = {amplitude:.4f}", loc="left")
         _deviations(apart, data)
         axes.plot([], [], "o", color="0.4", ms=4.0, label="end of the period")
-        figure: Any = axes.get_figure(root=True)
+        figure = figure_of(axes)
         figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=5)
     return axes, apart
 

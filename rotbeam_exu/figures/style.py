@@ -154,6 +154,14 @@ def new_figure(width: float, height: float, **layout: Any) -> tuple[Figure, Any]
     return figure, axes
 
 
+def figure_of(ax: Axes) -> Figure:
+    """Return the figure that holds axes, be they in one of its parts."""
+    figure = ax.get_figure(root=True)
+    if figure is None:
+        raise ValueError("these axes were removed from their figure: make new ones")
+    return figure
+
+
 @contextmanager
 def house_axes(ax: _Given | None, width: float, height: float, **layout: Any) -> Iterator[_Given]:
     """Draw in the house's style: on `ax`, or on the axes of a new figure [in].
@@ -259,8 +267,8 @@ def save_figure(axes: Axes | Sequence[Axes], path: str | os.PathLike[str]) -> tu
     """
     import matplotlib.pyplot as plt  # noqa: PLC0415
 
-    first: Any = axes if isinstance(axes, Axes) else axes[0]
-    figure, target = first.get_figure(root=True), Path(path)
+    first = axes if isinstance(axes, Axes) else axes[0]
+    figure, target = figure_of(first), Path(path)
     active = _ACTIVE.get()
     written = tuple(target.with_name(f"{target.name}.{end}") for end in active.formats)
     for one in written:

@@ -11,7 +11,18 @@ from matplotlib.axes import Axes
 
 from ..paper import MODEL_LINES, MODEL_NAMES
 from .paper_figure import EXACT, listed, paper_figure
-from .style import column, columns, cycle, house_axes, inset, label, model_line, ramp, typeset
+from .style import (
+    column,
+    columns,
+    cycle,
+    figure_of,
+    house_axes,
+    inset,
+    label,
+    model_line,
+    ramp,
+    typeset,
+)
 
 _NEAR = "Inset: the same near zero."
 _SHORT_DASHES = ("-", (0, (2, 1)), (0, (1, 1)))  # what greys do not tell from the models'
@@ -116,7 +127,7 @@ def _coefficients(
             _rows(around_zero, data[axis], data["lambda_omega"], lines)
             around_zero.set_ylim(-0.05, 0.05)
             around_zero.tick_params(labelsize=6.0)
-        figure: Any = axes[0].get_figure(root=True)
+        figure = figure_of(axes[0])
         named = axes[0].get_legend_handles_labels()
         figure.legend(*named, loc="outside lower center", ncols=min(len(lines), 5))
     return tuple(axes)

@@ -6,7 +6,7 @@ import difflib
 import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import NoneType
-from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Literal, NamedTuple, get_args, get_origin, get_type_hints
 
 from numpy.typing import ArrayLike
 
@@ -22,11 +22,11 @@ from ..runs import Element, Frame
 class Table(NamedTuple):
     """Keys of a table and the types of their values; a tuple of tables are alternatives."""
 
-    required: Mapping[str, Any]
-    optional: Mapping[str, Any]
+    required: Mapping[str, object]
+    optional: Mapping[str, object]
 
 
-def table_of(call: Callable[..., Any]) -> Table:
+def table_of(call: Callable[..., object]) -> Table:
     """Return the keys of a table that holds the fields of a class, or the arguments of a call."""
     hints, known = get_type_hints(call), inspect.signature(call).parameters.values()
     asked = {one.name: hints[one.name] for one in known if one.default is one.empty}
@@ -64,7 +64,7 @@ _DOCUMENT = Table(
 )
 
 
-def require_keys(value: Any, told: Any = _DOCUMENT, title: str = "the file") -> None:
+def require_keys(value: object, told: object = _DOCUMENT, title: str = "the file") -> None:
     """Refuse what is no table, missing keys, and unknown ones, in a table and in all within it."""
     if not (tables := _tables(told)):
         return
@@ -94,7 +94,7 @@ def require_keys(value: Any, told: Any = _DOCUMENT, title: str = "the file") -> 
         raise ValueError(f"{title} lacks {', '.join(missing)}")
 
 
-def _tables(told: Any) -> tuple[Table, ...]:
+def _tables(told: object) -> tuple[Table, ...]:
     """Return the tables that a value of a type may be or hold, none of numbers and texts."""
     if isinstance(told, Table):
         return (told,)
@@ -108,7 +108,7 @@ _TELLING_ITS_KIND = Table({"kind": str}, {})
 """A table of a load or a shape, which `from_description` checks."""
 
 
-def schema() -> dict[str, Any]:
+def schema() -> dict[str, object]:
     """Return the JSON schema of a beam file, which the loader's own tables tell."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -118,12 +118,12 @@ def schema() -> dict[str, Any]:
     }
 
 
-_TYPES: dict[Any, str | list[str]] = {
+_TYPES: dict[object, str | list[str]] = {
     float: "number", int: "integer", str: "string", bool: "boolean", ArrayLike: ["number", "array"],
 }  # fmt: skip
 
 
-def _schema_of(told: Any) -> dict[str, Any]:
+def _schema_of(told: object) -> dict[str, object]:
     """Return the schema of a table, of alternatives, or of a value by its type hint."""
     if isinstance(told, Table):
         return {
@@ -138,18 +138,20 @@ def _schema_of(told: Any) -> dict[str, Any]:
         return {"enum": list(get_args(told))}
     if not isinstance(told, tuple) and told in _TYPES:
         return {"type": _TYPES[told]}
-    parts: Iterable[Any] = told if isinstance(told, tuple) else dict.fromkeys(get_args(told))
+    parts: Iterable[object] = told if isinstance(told, tuple) else dict.fromkeys(get_args(told))
     if isinstance(told, type) and issubclass(told, Described):
         kinds = kinds_of(told)
         parts = [table_of(told)] if told.__name__ in kinds else map(_with_kind, kinds.values())
-    several = [_schema_of(one) for one in parts if one not in (NoneType, Ellipsis)]
-    choice = several[0] if len(several) == 1 else {"anyOf": several}
+    several: list[dict[str, object]] = [
+        _schema_of(one) for one in parts if one not in (NoneType, Ellipsis)
+    ]
+    choice: dict[str, object] = several[0] if len(several) == 1 else {"anyOf": several}
     if get_origin(told) in (list, tuple, Sequence):
         return {"type": "array", "items": choice}
     return choice
 
 
-def _with_kind(cls: type[Any]) -> Table:
+def _with_kind(cls: type[object]) -> Table:
     """Return the keys of a table that tells its kind."""
     keys = table_of(cls)
     return Table({"kind": Literal[cls.__name__], **keys.required}, keys.optional)

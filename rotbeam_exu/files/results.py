@@ -88,9 +88,9 @@ def _netcdf(data: xr.Dataset) -> bytes:
 def _plainly(data: xr.Dataset) -> xr.Dataset:
     """Return a copy without another file's encoding, its attributes Python's numbers and text."""
     data = data.drop_encoding()
-    data.attrs = plain(data.attrs)
+    data.attrs = {name: plain(one) for name, one in data.attrs.items()}
     for variable in data.variables.values():
-        variable.attrs = plain(variable.attrs)
+        variable.attrs = {name: plain(one) for name, one in variable.attrs.items()}
     return data
 
 
@@ -127,7 +127,7 @@ def save_tables(data: xr.Dataset, path: Path) -> list[Path]:
     return list(contents)
 
 
-def _json(value: Any, margin: str = "\n") -> str:
+def _json(value: object, margin: str = "\n") -> str:
     """Return JSON for a reader: each entry of a dict in a line of its own, lists in one."""
     if not isinstance(value, dict) or not value:
         return json.dumps(value, ensure_ascii=False, default=str)
@@ -207,7 +207,7 @@ def differing_inputs(
     }
 
 
-def _kept(path: Path) -> tuple[dict[Any, Any], dict[Any, Any]]:
+def _kept(path: Path) -> tuple[Mapping[Any, object], Mapping[str, object]]:
     """Return the attributes and the grid of the result in a file."""
     if path.suffix == ".json":
         about = json.loads(path.read_text(encoding="utf-8"))
@@ -225,7 +225,7 @@ def _inputs(values: Mapping[Any, object]) -> dict[str, object]:
     return {str(k): _readable(value) for k, value in values.items() if k not in OUTCOMES}
 
 
-def _readable(value: Any) -> Any:
+def _readable(value: object) -> object:
     """Return a value as a reader's JSON has it: JSON in a text is read, NaN and inf are text."""
     value = plain(value)
     if isinstance(value, str) and value[:1] in ("{", "["):
@@ -238,7 +238,7 @@ def _readable(value: Any) -> Any:
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> object:
     """Return Python's numbers, text and lists of them for NumPy's and xarray's."""
     if isinstance(value, (np.ndarray, np.generic, xr.DataArray)):
         return np.asarray(value).tolist()

@@ -9,7 +9,7 @@ from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from analytic import Beam, Blade
 from analytic.arrays import FloatArray
@@ -128,7 +128,7 @@ def _grid(data: xr.Dataset, place: FloatArray, section: FloatArray, offsets: Flo
     )
 
 
-def _part(title: str, arrays: Mapping[str, Any]) -> str:
+def _part(title: str, arrays: Mapping[str, NDArray[Any]]) -> str:
     """Return arrays in base64, each behind its number of bytes, so that none is rounded."""
     text = ""
     for name, values in arrays.items():

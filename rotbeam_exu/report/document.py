@@ -61,10 +61,10 @@ class Record:
         return f"{self.judgement.declaration.code} {self.judgement.declaration.version}".strip()
 
 
-def document(record: Record) -> dict[str, Any]:
+def document(record: Record) -> dict[str, object]:
     """Return the submission, the findings and the versions; unknown numbers are None."""
     found = record.judgement
-    made: dict[str, Any] = _plain(
+    made: dict[str, object] = _plain(
         {
             "schema": SCHEMA,
             "benchmark": VERSION,
@@ -83,7 +83,7 @@ def document(record: Record) -> dict[str, Any]:
     return made
 
 
-def _case(name: str, record: Record) -> dict[str, Any]:
+def _case(name: str, record: Record) -> dict[str, object]:
     found = record.judgement
     return {
         "title": CASES[name].title if name in CASES else name,
@@ -95,7 +95,7 @@ def _case(name: str, record: Record) -> dict[str, Any]:
     }
 
 
-def _finding(found: Finding) -> dict[str, Any]:
+def _finding(found: Finding) -> dict[str, object]:
     runs = found.runs
     return {
         "outcome": str(found.outcome),
@@ -117,7 +117,7 @@ def _finding(found: Finding) -> dict[str, Any]:
     }
 
 
-def _order(order: Order) -> dict[str, Any]:
+def _order(order: Order) -> dict[str, object]:
     return {
         "observed": order.value,
         "bar": order.bar,
@@ -127,7 +127,7 @@ def _order(order: Order) -> dict[str, Any]:
     }
 
 
-def _run(run: Run, found: Judgement) -> dict[str, Any]:
+def _run(run: Run, found: Judgement) -> dict[str, object]:
     histories = found.histories.get(run.case)
     known = histories.differences.get(run) if histories else None
     return {
@@ -144,7 +144,7 @@ def _run(run: Run, found: Judgement) -> dict[str, Any]:
     }
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> Any:
     """Return what JSON has: no arrays, no NaN, no infinity."""
     if isinstance(value, dict):
         return {str(key): _plain(one) for key, one in value.items()}

@@ -17,15 +17,18 @@ from analytic.theory import BERNOULLI_EULER, Theory
 
 from .. import __version__
 
+Attributes = Mapping[Any, Any]
+"""Attributes of a Dataset, which have no types."""
+
 _UNKNOWN = "unknown: what is out of the plane of bending is not computed, and zero"
 
 
-def beam_of(attrs: Mapping[Any, Any]) -> Blade:
+def beam_of(attrs: Attributes) -> Blade:
     """Return the blade that the attributes of a run describe."""
     return from_description(json.loads(attrs["blade"]), Blade)
 
 
-def blade_attributes(blade: Blade) -> dict[str, Any]:
+def blade_attributes(blade: Blade) -> dict[str, object]:
     """Return the attributes by which a run says which blade it is; `beam_of` reads them.
 
     They say too if the section out of the plane of bending is not known.
@@ -34,17 +37,17 @@ def blade_attributes(blade: Blade) -> dict[str, Any]:
     return {"blade_length": blade.length, "blade": json.dumps(describe(blade)), **known}
 
 
-def loads_of(attrs: Mapping[Any, Any]) -> tuple[Load, ...]:
+def loads_of(attrs: Attributes) -> tuple[Load, ...]:
     """Return the loads that the attributes of a run describe."""
     return tuple(from_description(one, Load) for one in json.loads(attrs.get("loads", "[]")))
 
 
-def loads_attributes(loads: Sequence[Load]) -> dict[str, Any]:
+def loads_attributes(loads: Sequence[Load]) -> dict[str, object]:
     """Return the attribute by which a run says its loads, none without; `loads_of` reads it."""
     return {"loads": json.dumps(list(map(describe, loads)))} if loads else {}
 
 
-def theory_attributes(theory: Theory) -> dict[str, Any]:
+def theory_attributes(theory: Theory) -> dict[str, object]:
     """Return the attributes by which an answer says where its theory is not Bernoulli and Euler's.
 
     Numbers, for files hold no truth values: a shear of 1 is that of the stations.
@@ -57,7 +60,7 @@ def theory_attributes(theory: Theory) -> dict[str, Any]:
     }
 
 
-def theory_of(attrs: Mapping[Any, Any]) -> Theory:
+def theory_of(attrs: Attributes) -> Theory:
     """Return the theory that the attributes of an answer describe."""
     known = {k.name: attrs[k.name] for k in fields(Theory) if k.name in attrs}
     # A number among them is the ratio of shear.
@@ -65,7 +68,7 @@ def theory_of(attrs: Mapping[Any, Any]) -> Theory:
     return Theory(**told)
 
 
-def motion_of(attrs: Mapping[Any, Any]) -> Motion:
+def motion_of(attrs: Attributes) -> Motion:
     """Return the rotation of the clamp that the attributes of a run describe."""
     if "motion" in attrs:
         return from_description(json.loads(attrs["motion"]), Motion)
@@ -73,7 +76,7 @@ def motion_of(attrs: Mapping[Any, Any]) -> Motion:
     return SpinUp(omega=omega, ramp_time=ramp_time) if ramp_time else SteadyRotation(omega=omega)
 
 
-def motion_attributes(motion: Motion) -> dict[str, Any]:
+def motion_attributes(motion: Motion) -> dict[str, object]:
     """Return the attribute by which a run says how it was driven; `motion_of` reads it.
 
     Eq. 1 and a steady rotation need none beside omega and ramp_time. A rotation that is no known

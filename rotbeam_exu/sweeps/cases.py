@@ -32,7 +32,7 @@ class Cache:
         made_with = {k: v for k, v in versions().items() if k != "python"}
         self._made = {**made_with, **made_by}
 
-    def get(self, description: dict[str, Any]) -> xr.Dataset | None:
+    def get(self, description: dict[str, object]) -> xr.Dataset | None:
         """Return the result kept for a description, or None.
 
         A file that cannot be read is named in a warning and set aside, not used or lost.
@@ -51,7 +51,7 @@ class Cache:
             return None
         return result
 
-    def put(self, description: dict[str, Any], result: xr.Dataset) -> None:
+    def put(self, description: dict[str, object], result: xr.Dataset) -> None:
         """Keep a result; the file is written whole or not at all."""
         path = self._path(description)
         try:
@@ -62,7 +62,7 @@ class Cache:
                 "those already there stay, make room and run again"
             ) from error
 
-    def _path(self, description: dict[str, Any]) -> Path:
+    def _path(self, description: dict[str, object]) -> Path:
         content = json.dumps({"case": description, "made": self._made}, sort_keys=True)
         return self._folder / f"{hashlib.sha256(content.encode()).hexdigest()[:32]}.nc"
 

@@ -3,191 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from enum import StrEnum
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from functools import partial
 
-import numpy as np
-
-from analytic import (
-    Beam,
-    Blade,
-    Damping,
-    Ellipse,
-    Gravity,
-    SpinUp,
-    SteadyRotation,
-    Tube,
-    periodic_orbits,
-)
-from analytic.arrays import FloatArray
-from analytic.exact.continuum.state import BeamState, kicked_state
-from analytic.loads import Load
+from analytic import Beam, Blade, Damping, Ellipse, Gravity, SpinUp, SteadyRotation, Tube
 from analytic.theory import BERNOULLI_EULER, Theory
 
-if TYPE_CHECKING:
-    from analytic.exact.free.orbits import Orbits
+from .case import Asked, Case, Level, SpaceCase
 
 VERSION = "1.1"
 """Version of the benchmark: the first number of its thresholds, the second of its list of cases."""
-
-
-class Level(StrEnum):
-    """Demand that a case makes on a code."""
-
-    BASIC = "basic"
-    MODERATE = "moderate"
-    HARD = "hard"
-    BLADE = "blade"
-    SPACE = "space"
-
-
-class Asked(StrEnum):
-    """Result that is handed in."""
-
-    FREQUENCIES = "natural frequencies at each speed"
-    STEADY = "steady deflection of the tip at each speed"
-    HISTORY = "deflection of the tip over time"
-    BACKBONE = "nonlinear frequency at each speed and amplitude"
-
-
-TIP = ("lag", "flap", "twist")
-"""The tip in space, as `SpinUpResponse` has it: two places [m], and the section's turn [rad]."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Case:
-    """One task.
-
-    Attributes
-    ----------
-    name : str
-        As files and folders are named: "L", "S1", "S1+h".
-    level : Level
-    title : str
-        In a few words.
-    asked : Asked
-    blade : Blade
-        Damping included.
-    motion : SpinUp or SteadyRotation, optional
-        How the clamp turns, of a history.
-    duration : float
-        Of the history [s].
-    speeds : tuple of float
-        Of frequencies, steady deflections and backbones [rad/s].
-    count : int
-        Number of frequencies at each speed, by their number.
-    amplitudes : tuple of float
-        Peak |q|/L: of a history the orbit it starts on, of a backbone its points.
-    loads : tuple
-    kick : float
-        Speed of the tip out of the plane at t = 0 [m/s], as `spin_up_response` has it.
-    oscillates : bool
-        Whether the history ends in a steady oscillation, whose amplitude and frequency are judged.
-    in_space : bool
-        Whether the blade flaps and twists as well: its histories are those of `TIP`.
-    theories : tuple of Theory
-        Those whose references come with the package, as codes declare them.
-    """
-
-    name: str
-    level: Level
-    title: str
-    asked: Asked
-    blade: Blade
-    motion: SpinUp | SteadyRotation | None = None
-    duration: float = 0.0
-    speeds: tuple[float, ...] = ()
-    amplitudes: tuple[float, ...] = ()
-    loads: tuple[Load, ...] = ()
-    kick: float = 0.0
-    oscillates: bool = False
-    count: int = 1
-    in_space: bool = False
-    theories: tuple[Theory, ...] = (BERNOULLI_EULER,)
-
-    def __post_init__(self) -> None:
-        """Refuse a load that the reference would leave out."""
-        steady = self.asked is Asked.STEADY
-        for load in () if self.is_spun_up else self.loads:
-            if not (steady and _is_weight(load)):
-                raise ValueError(
-                    f"the reference of case {self.name}, {self.asked}, knows no {load!r}: "
-                    + ("weight along the axis of rotation alone" if steady else "take a spin-up")
-                )
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Columns of its histories besides the time."""
-        return TIP if self.in_space else ("q",)
-
-    def theory_of(self, declared: Theory) -> Theory:
-        """Return the theory by which a code is judged that declares one.
-
-        In space slices have their inertia about all axes, and twist does not shorten the axis: the
-        beam of Reissner and Simo, or of Kirchhoff without shear.
-        """
-        if not self.in_space:
-            return replace(declared, trapeze=True)  # which the plane does not know
-        return replace(declared, rotary_inertia=True, trapeze=False, engesser=False)
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Quantities that are judged of it."""
-        if self.asked is Asked.HISTORY:
-            return ("history", "amplitude", "nonlinear shift")[: 3 if self.oscillates else 1]
-        return ("frequencies",) if self.count > 1 else (_QUANTITIES[self.asked],)
-
-    @property
-    def is_spun_up(self) -> bool:
-        """True where its history starts straight; else it starts on an orbit."""
-        return self.motion is not None and not self.amplitudes
-
-    @property
-    def rotation(self) -> SpinUp | SteadyRotation:
-        """Rotation of the clamp of a history; ValueError if the case asks for none."""
-        if self.motion is None:
-            raise ValueError(f"case {self.name} has several speeds: say which")
-        return self.motion
-
-    @property
-    def ramp_time(self) -> float:
-        """Time in which it is spun up [s]; 0 of a steady rotation."""
-        return self.rotation.ramp_time
-
-    @cached_property
-    def orbit(self) -> Orbits:
-        """Exact orbit that its history starts on, at phase 0; ValueError if it starts at rest."""
-        if self.motion is None or not self.amplitudes:
-            raise ValueError(f"case {self.name} starts at rest, on no orbit")
-        return periodic_orbits(self.blade, self.motion.omega, self.amplitudes)
-
-    @property
-    def start(self) -> Callable[[FloatArray], BeamState] | None:
-        """State at material points x [m] at t = 0; None of a beam that starts straight, at rest."""
-        if self.kick:
-            return partial(kicked_state, self.blade.length, self.kick)
-        return None if self.is_spun_up else partial(self.orbit.state, 0)
-
-    def whole_duration(self, step: float) -> float:
-        """Return the duration, or a little more that is a whole number of steps [s]."""
-        return math.ceil(self.duration / step * (1.0 - 1e-12)) * step
-
-
-def _is_weight(load: Load) -> bool:
-    """Whether a load is a steady weight along the axis of rotation."""
-    in_plane = load.force(np.zeros(1), np.ones(1), 1.0)
-    small = float(np.abs(in_plane).max()) < 1e-12 * abs(load.size)
-    return small and load.acts_on == "mass" and not load.frequency
-
-
-_QUANTITIES = {
-    Asked.FREQUENCIES: "linear frequency",
-    Asked.STEADY: "steady deflection",
-    Asked.BACKBONE: "backbone",
-}
 
 
 def spin_up_case(
@@ -301,33 +126,26 @@ def _in_space() -> tuple[Case, ...]:
     straight = blade.with_shape(Ellipse(ratio=height / width))
     twisted = straight.with_twist(math.pi / 6.0)
     coned, theories = twisted.with_precone(0.05), (BERNOULLI_EULER, Theory(shear=SHEAR))
-
-    def case(name: str, title: str, asked: Asked, blade: Blade, **more: Any) -> Case:
-        return Case(
-            name=name, level=Level.SPACE, title=title, asked=asked, blade=blade, in_space=True,
-            theories=theories, **more,
-        )  # fmt: skip
-
     speeds = (0.0, 1.0, 2.0, 3.0)
+    case = partial(SpaceCase, level=Level.SPACE, theories=theories)
+    modes = partial(case, asked=Asked.FREQUENCIES, speeds=speeds, count=7)
+    steady = partial(case, asked=Asked.STEADY, speeds=speeds[1:])
+    spun_up = partial(case, asked=Asked.HISTORY, duration=15.0)
     return (
-        case("F", "flap, lag and torsion", Asked.FREQUENCIES, straight, speeds=speeds, count=7),
-        case(
-            "F+p", "twist and precone, frequencies", Asked.FREQUENCIES, coned, speeds=speeds,
-            count=7,
-        ),
-        case("P", "twist and precone, steady state", Asked.STEADY, coned, speeds=speeds[1:]),
-        case(
-            "W", "spin-up of a twisted blade", Asked.HISTORY, twisted, duration=15.0,
+        modes(name="F", title="flap, lag and torsion", blade=straight),
+        modes(name="F+p", title="twist and precone, frequencies", blade=coned),
+        steady(name="P", title="twist and precone, steady state", blade=coned),
+        spun_up(
+            name="W", title="spin-up of a twisted blade", blade=twisted,
             motion=SpinUp(omega=3.0, ramp_time=4.0),
         ),
-        case(
-            "G", "gravity normal to the plane, steady state", Asked.STEADY, twisted,
-            speeds=speeds[1:], loads=(Gravity(9.81, tilt=0.5 * math.pi),),
+        steady(
+            name="G", title="gravity normal to the plane, steady state", blade=twisted,
+            loads=(Gravity(9.81, tilt=0.5 * math.pi),),
         ),
-        case(
-            "K", "S1, kicked out of the plane", Asked.HISTORY,
-            Beam.reference().with_shape(Tube()), motion=SpinUp(omega=6.0, ramp_time=3.0),
-            duration=15.0, kick=2.0,
+        spun_up(
+            name="K", title="S1, kicked out of the plane", kick=2.0,
+            blade=Beam.reference().with_shape(Tube()), motion=SpinUp(omega=6.0, ramp_time=3.0),
         ),
     )  # fmt: skip
 

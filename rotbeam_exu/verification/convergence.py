@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -134,18 +134,14 @@ def converged(
     finest_last = np.lexsort((-h, n))
     n, h, f = n[finest_last], h[finest_last], f[finest_last].reshape(n.size, -1)
     bars = np.broadcast_to(finite_array("noise", noise), n.shape)[finest_last]
-    made: dict[str, Any] = {
-        "elements": n,
-        "steps": h,
-        "noise": bars,
-        "values": _of_rows(f),
-        "refined": refined,
-    }
+    made = partial(
+        Convergence, elements=n, steps=h, noise=bars, values=_of_rows(f), refined=refined
+    )
     if np.unique(n).size == 1:
         none = np.full(n.size, math.nan)
         why = Order(declared=declared[0], why="one mesh, three are needed")
-        return Convergence(
-            **made, errors=none, in_mesh=none, in_step=none, limit=math.nan, bar=math.inf,
+        return made(
+            errors=none, in_mesh=none, in_step=none, limit=math.nan, bar=math.inf,
             powers=(math.nan, math.nan), orders={"mesh": why},
         )  # fmt: skip
     y = h / (h.min() or 1.0)
@@ -160,8 +156,8 @@ def converged(
     limit = f[-1] + best.weights[0] @ moved
     mesh, step = (one[0] @ best.projections[0] @ moved for one in best.parts())
     bar = bar_of(models, evidence, best.weights[0], moved) + float(np.abs(best.weights[0]) @ bars)
-    return Convergence(
-        **made, errors=_of_rows(f - limit), in_mesh=_of_rows(mesh),
+    return made(
+        errors=_of_rows(f - limit), in_mesh=_of_rows(mesh),
         in_step=_of_rows(step), limit=float(_of_rows(limit[None])[0]), bar=bar,
         powers=(float(best.given[0][0]), float(best.given[1][0])),
         orders=_orders(models, evidence, best, n, h, moved, bars, refined),

@@ -22,7 +22,7 @@ from ..fem.linearization import Linearization
 from ..fem.simulation import simulate
 from ..lazily import xr
 from ..runs import Frame
-from .cases import Case
+from .case import Case
 from .verify import Entry
 
 _SECOND = 2.0
@@ -67,7 +67,8 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
             duration=case.whole_duration(step), loads=case.loads,
             initial_state=case.start, frame=frame,
         )  # fmt: skip
-        return found.rename(q="lag", w="flap") if case.in_space else found
+        names = {"q": "lag", "w": "flap"}
+        return found.rename({old: new for old, new in names.items() if new in case.columns})
 
     def lowest(case: Case, omega: float, elements: int) -> FloatArray:
         frame_of(case.blade)

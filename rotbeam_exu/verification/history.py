@@ -14,7 +14,7 @@ from analytic.lazily import interpolate
 from analytic.threads import one_thread
 
 from ..runs.oscillation import NoOscillationError, SteadyOscillation, oscillation_of
-from .cases import TIP, Case
+from .case import Case
 from .convergence import Convergence, converged
 from .outcomes import Finding, Outcome, found_of
 from .references import Reference
@@ -91,9 +91,10 @@ class Histories:
         # Amplitude and frequency have few digits in the estimator's own errors already.
         noise = [HISTORY_FLOOR + np.max(run.rounding / self.scale) for run in self.aligned]
         found = self._found(self.aligned, noise, tolerance, self.reference.bound)
-        if self.case.in_space and not found.outcome.passed:
+        if len(self.case.columns) > 1 and not found.outcome.passed:
             worst = np.abs(self.differences[self.finest]).max(axis=0).argmax()
-            found = replace(found, note=f"{found.note}, most of all {TIP[worst]}")
+            note = f"{found.note}, most of all {self.case.columns[worst]}"
+            found = replace(found, note=note)
         return found
 
     @cached_property

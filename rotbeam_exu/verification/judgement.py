@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from analytic import Blade
 from analytic.threads import one_thread
 
-from .cases import CASES, TIP, Asked, Case
+from .case import TIP, Asked, Case
+from .cases import CASES
 from .convergence import Convergence, Order, converged
 from .history import Histories, judged_apart, mending
 from .outcomes import Finding, Outcome, found_of, worst_of

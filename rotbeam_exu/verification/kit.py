@@ -22,7 +22,8 @@ from analytic.input_checks import finite_array
 from analytic.motion import Motion
 
 from ..files.results import whole_file
-from .cases import CASES, VERSION, Asked, Case
+from .case import Asked, Case
+from .cases import CASES, VERSION
 from .judgement import THRESHOLDS
 from .references import reference
 from .submission_files.runs import FARTHEST
@@ -194,17 +195,17 @@ def row_of(case: Case) -> dict[str, Any]:
         "count": case.count if case.asked is Asked.FREQUENCIES else None,
         "amplitudes": list(case.amplitudes),
     }
-    for name, told in _told(row).items():
+    for name, read in _read_back(row).items():
         has = getattr(blade if hasattr(blade, name) else case, name)
-        if has != told:
+        if has != read:
             raise ValueError(
-                f"case {case.name} has {name} = {has!r}, of which cases.csv would tell {told!r}: "
-                "name what is missing in row_of, _told and UNITS"
+                f"case {case.name} has {name} = {has!r}, of which cases.csv would tell {read!r}: "
+                "name what is missing in row_of, _read_back and UNITS"
             )
     return row
 
 
-def _told(row: dict[str, Any]) -> dict[str, Any]:
+def _read_back(row: dict[str, Any]) -> dict[str, Any]:
     """Return the fields of the blade, motion and loads as a reader of a row takes them."""
     # A cell holds a number: what changes along the blade is not told.
     EA, EI, rhoA = (float(np.ravel(row[name])[0]) for name in ("EA", "EI", "rhoA"))
@@ -239,7 +240,7 @@ def cases_csv() -> str:
     return "\n".join([*lines, ""])
 
 
-def _cell(value: Any) -> str:
+def _cell(value: object) -> str:
     if value is None:
         return ""
     return " ".join(map(repr, value)) if isinstance(value, list) else str(value)

@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response, steady_state
+from analytic import periodic_orbits, spin_up_response, steady_state
 from analytic.arrays import FloatArray
-from analytic.exact.linear.modes import driven_modes
 from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 
-from .cases import Asked, Case
+from .case import Asked, Case
 from .shipped import FILE, Shipped, shipped, spline
 from .submission import Row
 
@@ -182,11 +181,9 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
         weight = -sum(float(load.lift(np.zeros(1))[0]) for load in case.loads)
         steady = steady_state(blade, speed, gravity=weight, theory=theory)
         row = np.array([steady.tip[1], steady.tip[2], steady.twist])
-        scales = np.abs(row) / (blade.length, blade.length, 1.0)
+        scales = np.abs(row) / case.sizes
         return row, COMPUTED_BOUND + steady.error / float(scales.min())
-    if case.in_space:
-        return linear_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
-    return driven_modes(blade, speed, case.count, theory=theory).frequencies, COMPUTED_BOUND
+    return case.frequencies(speed, theory), COMPUTED_BOUND
 
 
 class Sampled(NamedTuple):
@@ -209,22 +206,20 @@ def sampled_history(
     Samples are `spacing` [s] apart, or some 400 in a period. RuntimeError if the history is not
     reached, ValueError if theory has no answer.
     """
-    blade, motion, theory = case.blade, cast("SpinUp", case.rotation), case.theory_of(theory)
+    blade, motion, theory = case.blade, case.rotation, case.theory_of(theory)
     if spacing is None:
         spacing = 0.015 / max(blade.omega_0, motion.omega / 3.0)
     count = math.ceil(case.duration / spacing) + _BEYOND
     time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
     if case.is_spun_up:
-        found: Any = spin_up_response(
-            blade, motion, time, tolerance=tolerance, loads=case.loads, theory=theory,
+        response = spin_up_response(
+            blade, case.spin_up, time, tolerance=tolerance, loads=case.loads, theory=theory,
             kick=case.kick,
         )  # fmt: skip
-        q, error = found.q, found.error
-        if case.in_space:
-            # Its error is over the largest of lag and flap, to which all components are small.
-            q = np.stack((found.lag, found.flap, found.twist), axis=1)
-            sizes = np.abs(q).max(axis=0) / (blade.length, blade.length, 1.0)
-            error *= float(sizes.max() / sizes.min())
+        q = case.joined([getattr(response, name) for name in case.columns])
+        # The error is over the largest of q and flap, to which all columns are small.
+        sizes = np.abs(q).max(axis=0) / case.sizes
+        error = response.error * float(sizes.max() / sizes.min())
     else:
         orbit = periodic_orbits(blade, motion.omega, case.amplitudes, theory=theory)
         q, error = blade.length * orbit.response(time, 0), float(orbit.residual.max())

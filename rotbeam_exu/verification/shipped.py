@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +18,11 @@ from analytic.lazily import interpolate
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import h5py
-from .cases import CASES, VERSION, Asked, Case
+from .case import Asked, Case
+from .cases import CASES, VERSION
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 FILE = Path(__file__).parent / "data" / "references.nc"
 
@@ -36,7 +40,7 @@ def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
     return interpolate.make_interp_spline(time, q, k=5)
 
 
-def key(case: Case, theory: Theory) -> tuple[Any, ...]:
+def key(case: Case, theory: Theory) -> tuple[object, ...]:
     """Return what makes a history, or a table."""
     asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
     kick = (case.kick,) if case.kick else ()
@@ -45,22 +49,23 @@ def key(case: Case, theory: Theory) -> tuple[Any, ...]:
     return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 
 
-def _stated(value: Any) -> dict[str, Any]:
+def _stated(value: DataclassInstance | type[DataclassInstance]) -> dict[str, object]:
     """Return the fields of a value by name, without fields that are empty by default.
 
     A blade that learns to have more then states the same as before.
     """
-    parts = ((one.name, getattr(value, one.name), one.default) for one in fields(value))
+    told = (one for one in fields(value) if one.init)  # others follow from these
+    parts = ((one.name, getattr(value, one.name), one.default) for one in told)
     return {name: part for name, part, default in parts if part != default or not _is_nothing(part)}
 
 
-def _is_nothing(part: Any) -> bool:
+def _is_nothing(part: object) -> bool:
     if isinstance(part, tuple):
         return all(map(_is_nothing, part))
     return not (_stated(part) if is_dataclass(part) else part)
 
 
-def said(value: Any) -> str:
+def said(value: object) -> str:
     """Return all numbers behind a history or a backbone, by which the file knows it."""
     if isinstance(value, tuple):
         return f"({', '.join(map(said, value))})"
@@ -111,8 +116,7 @@ class Shipped:
         k = self._of["history"].get(said(key(case, theory)))
         if k is None or case.duration > DURATION:
             return None
-        q = self.data["q"][k : k + len(case.columns)].T
-        q = q if case.in_space else q[:, 0]
+        q = case.joined(self.data["q"][k : k + len(case.columns)])
         return spline(self.data["time"], q), float(self.data["bound"][k])
 
     def row(self, case: Case, theory: Theory, speed: float) -> FloatArray | None:
@@ -122,7 +126,7 @@ class Shipped:
         """
         asked = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
         for own in CASES.values():
-            alike = (own.blade, own.in_space, own.asked) == (case.blade, case.in_space, asked)
+            alike = (own.blade, own.columns, own.asked) == (case.blade, case.columns, asked)
             alike = alike and (asked is Asked.FREQUENCIES or own.loads == case.loads)
             if not alike or speed not in own.speeds or case.count > own.count:
                 continue

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 from analytic.arrays import FloatArray
 from analytic.input_checks import finite_number
 from analytic.letters import plain_text
 from analytic.theory import BERNOULLI_EULER, Theory
 
-from .cases import Case
+from .case import Case
 
 TEXTS = "benchmark", "code", "version", "url", "licence", "element", "machine", "remarks"
 ORDERS = "order", "order_in_step"
@@ -61,7 +60,7 @@ class Declaration:
                 object.__setattr__(self, key, declared(key, getattr(self, key)))
 
 
-def declared(key: str, value: object) -> Any:
+def declared(key: str, value: object) -> object:
     """Return a text, an order or the authors; TypeError or ValueError with the sentence."""
     if key in ORDERS:
         order = finite_number(key, value)

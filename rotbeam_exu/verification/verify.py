@@ -26,7 +26,8 @@ from analytic.input_checks import whole_number
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import xr
-from .cases import CASES, SPEEDS, Asked, Case, frequency_case, spin_up_case
+from .case import Asked, Case, SpaceCase
+from .cases import CASES, SPEEDS, frequency_case, spin_up_case
 from .judgement import Judgement, judged
 from .submission import Declaration, Row, Run, Submission
 
@@ -110,6 +111,11 @@ class Entry:
             whole_number("meshes", elements)
 
     @property
+    def columns(self) -> tuple[str, ...]:
+        """Columns of the histories of the cases that it does."""
+        return (SpaceCase if self.in_space else Case).columns
+
+    @property
     def own_meshes(self) -> tuple[int, ...]:
         """Meshes on which convergence is judged, coarse to fine."""
         around = (max(self.elements // 2, 1), self.elements, 2 * self.elements)
@@ -162,7 +168,7 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
     Frequencies and steady tips on its own meshes; histories on these meshes at twice its step, and
     on its mesh at one, two and four of its steps. What fails is on record with its sentence.
     """
-    cases = [case for case in cases if case.in_space is entry.in_space]
+    cases = [case for case in cases if case.columns == entry.columns]
     return Submission(
         declaration=Declaration(
             code=entry.name, theory=entry.theory, order=entry.order,
@@ -220,7 +226,6 @@ def _run(entry: Entry, case: Case, elements: int, step: float) -> Run:
     found = found.isel(time=found["time"].to_numpy() <= case.duration)
     own = str(found.attrs.get("verdict", "passed"))
     time = found["time"].to_numpy()
-    tip = [found[name].to_numpy() for name in case.columns]
-    q = np.stack(tip, axis=1) if case.in_space else tip[0]
+    q = case.joined([found[name].to_numpy() for name in case.columns])
     wall, remark = clock.perf_counter() - started, "" if own == "passed" else own
     return replace(run, time=time, q=q, wall=wall, remark=remark)

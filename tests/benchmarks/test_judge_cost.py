@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from analytic.theory import BERNOULLI_EULER
-from rotbeam_exu.verification.cases import CASES, Asked, Level
+from rotbeam_exu.verification.case import Asked, Level
+from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import Declaration, Row, Run, Submission
 from rotbeam_exu.verification.submission_files import write_submission

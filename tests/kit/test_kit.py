@@ -13,7 +13,8 @@ import pytest
 
 from analytic import Damping, FourierRamp, Gravity, TipForce
 from rotbeam_exu.verification import kit as room
-from rotbeam_exu.verification.cases import CASES, VERSION, Asked
+from rotbeam_exu.verification.case import Asked
+from rotbeam_exu.verification.cases import CASES, VERSION
 from rotbeam_exu.verification.judgement import THRESHOLDS
 from rotbeam_exu.verification.kit import MESHES, row_of, write_kit
 from rotbeam_exu.verification.references import reference

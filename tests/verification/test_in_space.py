@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from analytic import Gravity, Theory, linear_modes
-from rotbeam_exu.verification.cases import CASES, SHEAR, Asked
+from rotbeam_exu.verification.case import Asked
+from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.outcomes import Outcome

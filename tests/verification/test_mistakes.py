@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 
 from analytic import FourierRamp, SpeedTable, SpinUp, linear_modes, spin_up_response
-from analytic.exact.continuum.planar_rotation import continuum
 from analytic.exact.continuum.state import Driven
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import converged
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in, most_left
-from rotbeam_exu.verification.mistakes.forces import FORCES, without
+from rotbeam_exu.verification.mistakes.forces import FORCES, Lacking, without
 from rotbeam_exu.verification.mistakes.histories import RAMPS, mistake_in_history
 from rotbeam_exu.verification.mistakes.tables import mistake_in_table
 from rotbeam_exu.verification.outcomes import found_of
@@ -100,18 +99,41 @@ def test_a_force_that_is_left_out(named, force):
     assert np.ptp(q[S1.ramp_time < TIME]) > 0.1 * np.ptp(q)  # it swings on after the ramp
 
 
-def test_forces_that_are_left_out_are_those_of_a_turning_frame():
-    """With Euler's they are what the rotation adds to the slope's acceleration, r'' exp(-iθ)."""
+@pytest.fixture(params=["S1", "S1+h"])
+def work(request):
+    """Return coordinates, their rates, and a function: the work of a force, that of the rest."""
+    case, model = CASES[request.param], Lacking(CASES[request.param], {1.0: 1.0})
     rng = np.random.default_rng(1)
-    w, w_dot = 2.0, 0.7
-    q = 0.1 * rng.standard_normal((3, 1, continuum(1e-3, 6, 3).size))
-    at = {
-        rate: continuum(1e-3, 6, 3)._fields(*q, Driven(w * rate, w_dot * rate)) for rate in (0, 1)
-    }
-    added = (at[1].acceleration - at[0].acceleration) * at[1].turn
-    lacking = sum(force(at[1], np.array([[w]]))[0] for _, force in FORCES.values())
-    euler = 1j * w_dot * at[1].stretch * at[1].turn
-    assert added == pytest.approx(lacking + euler, rel=1e-12, abs=1e-12)
+    q, q_dot, q_ddot = 0.1 * rng.standard_normal((3, 1, model.size))
+
+    def of(force, by, rates=q_dot):
+        lacking = Lacking(case, FORCES[force][1]).residual(q, rates, q_ddot, by)
+        return (model.residual(q, rates, q_ddot, by) - lacking)[0], lacking[0]
+
+    return model, q, q_dot, of
+
+
+def test_the_coriolis_force_is_gyroscopic(work):
+    """It does no work on the motion, grows with the motion, and leaves nothing odd in the rate."""
+    _, _, q_dot, of = work
+    force, rest = of("no Coriolis force", Driven(2.0, 0.7))
+    assert abs(q_dot[0] @ force) < 1e-12 * np.abs(q_dot[0]) @ np.abs(force)
+    assert of("no Coriolis force", Driven(2.0, 0.7), 3.0 * q_dot)[0] == pytest.approx(3.0 * force)
+    assert of("no Coriolis force", Driven(-2.0, 0.7))[1] == pytest.approx(rest, rel=1e-12)
+
+
+def test_the_centrifugal_force_has_a_potential(work):
+    """It is the gradient of -½ w² ∫ r² dm, whatever the motion; by central differences."""
+    model, q, _, of = work
+    force, _ = of("no centrifugal force", Driven(2.0, 0.7))
+    change = 1e-4 * np.eye(model.size)
+    potential = [
+        model.amended_potential(q + sign * change, 2.0)
+        - model.amended_potential(q + sign * change, 0.0)
+        for sign in (1, -1)
+    ]
+    gradient = (potential[0] - potential[1]) / 2e-4
+    assert force == pytest.approx(gradient, rel=1e-5, abs=1e-6 * np.abs(force).max())
 
 
 def test_without_the_centrifugal_force_a_slow_ramp_bends_as_a_load_does():

@@ -45,6 +45,14 @@ def test_a_shipped_history_is_what_theory_says_between_its_samples(name):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("name", CASES)
+def test_no_case_is_computed_for_the_theories_that_it_names(name):
+    """A change of a blade's fields must not lose the file's answers: histories take minutes."""
+    case = CASES[name]
+    for theory in case.theories:
+        assert shipped().history(case, theory) or shipped().bound(case, theory)
+
+
 @pytest.mark.parametrize("name", references.shipped_histories())
 def test_every_shipped_history_is_what_another_computation_says(name):
     case, theory = references.shipped_histories()[name]

@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from common import SPACING, across, output_of, take_part
 
 from analytic import Theory
-from rotbeam_exu.verification.cases import Case
+from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.submission import Declaration
 
 CORNERS, MIDDLES = ((0, -1), (2, -1), (2, 1), (0, 1)), ((1, -1), (2, 0), (1, 1), (0, 0))

@@ -8,7 +8,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from common import called, take_part
 
 from rotbeam_exu.fem.elements import Cable
-from rotbeam_exu.verification.cases import Case
+from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.submission import Declaration
 

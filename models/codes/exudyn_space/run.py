@@ -10,7 +10,7 @@ from common import called, take_part
 
 from analytic import Tube
 from rotbeam_exu.fem.elements import SpaceExact
-from rotbeam_exu.verification.cases import Case
+from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.submission import Declaration
 

@@ -10,7 +10,7 @@ from KratosMultiphysics import StructuralMechanicsApplication as structural  # n
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from common import SPACING, across, take_part
 
-from rotbeam_exu.verification.cases import Case
+from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.submission import Declaration
 
 TOLERANCE, ITERATIONS = 1e-7, 20

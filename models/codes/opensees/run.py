@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from common import SPACING, across, take_part
 
-from rotbeam_exu.verification.cases import Case
+from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.submission import Declaration
 
 

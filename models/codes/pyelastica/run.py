@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from common import SPACING, across, take_part
 
 from analytic import Theory
-from rotbeam_exu.verification.cases import Case
+from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.submission import Declaration
 
 NU, K_S = 0.3, 27 / 28  # of a round section, as the code has it

@@ -10,7 +10,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from common import SPACING, compiled, output_of, take_part
 
-from rotbeam_exu.verification.cases import Case
+from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.kit import row_of
 from rotbeam_exu.verification.submission import Declaration
 

@@ -17,7 +17,8 @@ from analytic.input_checks import RotbeamWarning
 from analytic.theory import Theory
 from analytic.threads import one_thread
 
-from ..cases import CASES, Asked, Case
+from ..case import Asked, Case
+from ..cases import CASES
 from ..judgement import THRESHOLDS, Judgement, Progress, judged
 from ..outcomes import Finding, Outcome
 from ..references import reference
@@ -31,7 +32,7 @@ def mistakes_in(
     submission: Submission, judgement: Judgement, progress: Progress | None = None
 ) -> list[Mistake]:
     """Return the mistakes that explain large errors of a submission, one a case at most."""
-    found: list[Mistake] = []
+    mistakes: list[Mistake] = []
     ramps: Collection[str] = RAMPS
     with warnings.catch_warnings():
         # Of a speed that looks like rpm, which is what is tried.
@@ -39,28 +40,28 @@ def mistakes_in(
         for done, name in enumerate(judgement.findings):
             if progress is not None:
                 progress(name, done, len(judgement.findings))
-            case, seen = CASES[name], judgement.histories.get(name)
+            case, histories = CASES[name], judgement.histories.get(name)
             quantity, finding = next(iter(judgement.findings[name].items()))
             most = most_left(THRESHOLDS[quantity], finding)
             try:
-                one = _in_tags(case, submission, judgement)
-                if one is None and seen is not None:
-                    run = seen.finest
-                    true = seen.reference.history(run.time)
-                    one = mistake_in_history(case, run.time, run.q, true, ramps, most)
-                elif one is None and case.asked is not Asked.HISTORY:
+                mistake = _in_tags(case, submission, judgement)
+                if mistake is None and histories is not None:
+                    run = histories.finest
+                    true = histories.reference.history(run.time)
+                    mistake = mistake_in_history(case, run.time, run.q, true, ramps, most)
+                elif mistake is None and case.asked is not Asked.HISTORY:
                     truth = reference(case, submission.declaration.theory)
-                    one = mistake_in_table(case, submission.rows, truth, most)
+                    mistake = mistake_in_table(case, submission.rows, truth, most)
             except (RuntimeError, ValueError):
                 continue  # no reference, which the judgement says
-            if one is not None:
-                found.append(one)
-            if one is not None and one.name in RAMPS:
-                ramps = (one.name,)  # a code has one ramp in all cases
-            elif one is None and seen and case.is_spun_up and not case.in_space:
-                off = largest(seen.differences[seen.finest]) > SMALL
+            if mistake is not None:
+                mistakes.append(mistake)
+                if mistake.name in RAMPS:
+                    ramps = (mistake.name,)  # a code has one ramp in all cases
+            elif histories and case.is_spun_up and case.is_quick:
+                off = largest(histories.differences[histories.finest]) > SMALL
                 ramps = () if off else ramps  # tried in vain
-    return found
+    return mistakes
 
 
 def most_left(tolerance: float, finding: Finding) -> float:
@@ -78,28 +79,28 @@ def _in_tags(case: Case, submission: Submission, judgement: Judgement) -> Mistak
 
     Of the theories whose references are shipped; slender beams are alike by all of them.
     """
-    mine, outcomes = submission.declaration, list(Outcome)
+    mine, ranks = submission.declaration, list(Outcome)
     if judgement.outcome_of(case.name) not in (Outcome.AGREES, Outcome.DIFFERS):
         return None
-    found = {}
+    findings = {}
     for theory in case.theories:
         if case.theory_of(theory) != case.theory_of(mine.theory):
             other = replace(submission, declaration=replace(mine, theory=theory))
-            (of,) = judged(other, cases={case.name: case}).findings.values()
-            found[theory] = next(iter(of.values()))
+            (quantities,) = judged(other, cases={case.name: case}).findings.values()
+            findings[theory] = next(iter(quantities.values()))
 
     def rank(theory: Theory) -> int:
-        return outcomes.index(found[theory].outcome)
+        return ranks.index(findings[theory].outcome)
 
-    best = min(found, key=rank, default=None)
-    if best is None or rank(best) >= outcomes.index(judgement.outcome_of(case.name)):
+    best = min(findings, key=rank, default=None)
+    if best is None or rank(best) >= ranks.index(judgement.outcome_of(case.name)):
         return None
     before = next(iter(judgement.findings[case.name].values()))
     said = f"the results are those of {_tagged(best)}, the tags say {_tagged(mine.theory)}"
     return Mistake(
         case=case.name, name="tags",
         said=f"{said}: correct the tags of entry.toml, or the element",
-        before=abs(before.model_difference), after=abs(found[best].model_difference),
+        before=abs(before.model_difference), after=abs(findings[best].model_difference),
     )  # fmt: skip
 
 

@@ -1,58 +1,69 @@
-"""A force of the rotation that a code leaves out: the exact beam without it, spun up."""
+"""A force of the rotation that a code leaves out: the exact beam without it, spun up.
+
+In a frame that turns at the rate w the work of all forces is a parabola of w, but for Euler's
+force, which has the rate of w alone. The Coriolis force is its odd part, the centrifugal force the
+even part less that at w = 0. So a beam without one of them is a sum of beams at w, -w and 0.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterable
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
-from analytic.arrays import ComplexArray, FloatArray
+from analytic.arrays import FloatArray
 from analytic.exact.continuum.planar import Continuum
 from analytic.exact.continuum.state import Driven
 from analytic.exact.driven.transient import grid_of, integrated
+from analytic.methods.system import Tangent
 
-from ..cases import Case
+from ..case import Case
 
 _FUNCTIONS = 12, 6
 _STEP = 0.08  # in units of 1/√(EI/(mL³))
 
-Force = Callable[[Any, FloatArray], tuple[ComplexArray, FloatArray]]
-"""From fields and rate to what is left out of the accelerations of the slope r', (samples, points),
-and of the clamp at a unit radius, (samples, 1)."""
-
-
-def _coriolis(at: Any, rate: FloatArray) -> tuple[ComplexArray, FloatArray]:
-    velocity = at.stretch_rate + 1j * at.stretch * (at.spin - rate)
-    return 2j * rate * at.turn * velocity, 0.0 * rate
-
-
-def _centrifugal(at: Any, rate: FloatArray) -> tuple[ComplexArray, FloatArray]:
-    return -(rate**2) * at.turn * at.stretch, -(rate**2)
-
-
-FORCES: dict[str, tuple[str, Force]] = {
+FORCES: dict[str, tuple[str, dict[float, float]]] = {
     "no Coriolis force": ("the Coriolis force is left out: add 2θ̇ × v in the turning frame",
-        _coriolis),
+        {1.0: 0.5, -1.0: 0.5}),
     "no centrifugal force": ("the centrifugal force is left out: add its tension and θ̇² r",
-        _centrifugal),
+        {1.0: 0.5, -1.0: -0.5, 0.0: 1.0}),
 }  # fmt: skip
+"""Sentences on a code that leaves out a force, and weights of beams by their rate over w."""
 
 
-class _Lacking(Continuum):
-    """The exact beam without a force of the rotation.
+class Lacking(Continuum):
+    """The exact beam in the plane, at several rates of the clamp, summed with weights.
 
-    Newton's method has the whole beam's tangent, and takes an iteration more for it.
+    Parameters
+    ----------
+    case : Case
+    rates : dict
+        Weights by the rate over that of the case.
     """
 
-    force: Force
+    def __init__(self, case: Case, rates: dict[float, float]) -> None:
+        super().__init__(case.blade.slenderness, *_FUNCTIONS, blade=case.blade.unit)
+        self.rates = rates
 
-    def _fields(self, q: Any, q_dot: Any, q_ddot: Any, by: Driven) -> Any:
-        at = super()._fields(q, q_dot, q_ddot, by)
-        slope, clamp = self.force(at, self.blade.setting * np.asarray(by.rate)[..., None])
-        lacking = slope @ self._green + clamp * self.blade.hub * self.outboard["mass"]
-        return at._replace(force=at.force - at.turn.conj() * lacking)
+    def tangent(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> Tangent:
+        """Return the weighted sum of the beams' tangents, as `Continuum.tangent`."""
+        beams = [super(Lacking, self).tangent(q, q_dot, q_ddot, one) for one in self._drives(by)]
+        return Tangent(*(self._sum(parts) for parts in zip(*beams, strict=True)))
+
+    def residual(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
+    ) -> FloatArray:
+        """Return the weighted sum of the beams' residuals, as `Continuum.residual`."""
+        beams = [super(Lacking, self).residual(q, q_dot, q_ddot, one) for one in self._drives(by)]
+        return self._sum(beams)
+
+    def _drives(self, by: Driven) -> list[Driven]:
+        return [by._replace(rate=share * by.rate) for share in self.rates]
+
+    def _sum(self, parts: Iterable[FloatArray]) -> FloatArray:
+        weighted = zip(self.rates.values(), parts, strict=True)
+        return np.asarray(np.sum([weight * part for weight, part in weighted], axis=0))
 
 
 def without(force: str, case: Case, time: FloatArray) -> FloatArray:
@@ -60,17 +71,15 @@ def without(force: str, case: Case, time: FloatArray) -> FloatArray:
 
     RuntimeError where Newton's method fails.
     """
-    blade, rotation = case.blade, case.rotation
-    model = _Lacking(blade.slenderness, *_FUNCTIONS, blade=blade.unit)
-    model.force = FORCES[force][1]
+    blade, model = case.blade, Lacking(case, FORCES[force][1])
     end, ramp = float(time[-1]), min(case.ramp_time, float(time[-1]))
     step = _STEP / blade.frequency_scale
     corners = [0.0, ramp] + [end] * (end > ramp)
     counts = [int(np.ceil((b - a) / step)) for a, b in pairwise(corners)]
-    found = integrated(
-        blade, rotation, case.loads, model, grid_of(corners, counts), time, np.empty(0),
+    motion = integrated(
+        blade, case.rotation, case.loads, model, grid_of(corners, counts), time, np.empty(0),
         np.zeros(model.size),
     )  # fmt: skip
-    if found is None:
+    if motion is None:
         raise RuntimeError(f"{force}: the motion is not reached")
-    return np.asarray(blade.length * found.q)
+    return np.asarray(blade.length * motion.q)

@@ -6,14 +6,13 @@ import math
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain
-from typing import Any
 
 import numpy as np
 
 from analytic import SpeedTable, SpinUp, spin_up_response
 from analytic.arrays import FloatArray
 
-from ..cases import Case
+from ..case import Case
 from .forces import FORCES, without
 
 SMALL = 1e-2
@@ -125,57 +124,32 @@ def mistake_in_history(
     before = largest((seen.q - seen.true) / seen.scale)
     if not before > SMALL:
         return None
-    if case.in_space:
-        return explaining(case.name, before, most, _factors(seen))
-    found = explaining(case.name, before, most, chain(_factors(seen), _inertial(seen)))
-    if found is not None or not case.is_spun_up:
+    found = explaining(case.name, before, most, chain(_slips(seen), _inertial(seen)))
+    if found is not None or not (case.is_spun_up and case.is_quick):
         return found
     for name, said, left in _unit_of_speed(seen):
         return Mistake(case=case.name, name=name, said=said, before=before, after=left)
     return explaining(case.name, before, most, _forces(seen)) or _ramp(seen, ramps, most)
 
 
-TWISTED = "twist is the other way round: it turns the chord from the direction of rotation up"
-_OTHER = "is the other way round: lag grows along the rotation, flap up, twist from lag to flap"
-SIGNS = {
-    "sign of lag": (f"lag {_OTHER}", (-1.0, 1.0, 1.0)),
-    "sign of flap": (f"flap {_OTHER}", (1.0, -1.0, 1.0)),
-    "sign of twist": (f"twist {_OTHER}", (1.0, 1.0, -1.0)),
-    "degrees": ("the twist is in degrees: hand it in in rad", (1.0, 1.0, UNITS["degrees"][1])),
-}
-"""Factors of lag, flap and twist by which a tip in space may be off, and what is said of them."""
-
-
-def _factors(seen: _Seen) -> _Suspects:
-    """Yield factors of q; in space also the mirror of a blade that is built or kicked wrongly."""
-    known: dict[str, tuple[str, Any]] = {
-        "sign of q": ("q has the wrong sign: it is negative while the rotation speeds up, Eq. 16",
-            -1.0),
-        "q over L": ("q is over L: hand it in in metres", 1.0 / seen.case.blade.length),
-        "millimetres": ("q is in millimetres: hand it in in metres", 1e3),
-    }  # fmt: skip
-    if seen.case.in_space:
-        name, said = "sign of the blade's twist", f"the blade's {TWISTED}"
-        if seen.case.kick:
-            name = "sign of the kick"
-            said = "the kick is the other way round: it goes up, along the axis"
-        known = {**SIGNS, name: (said, (1.0, -1.0, -1.0))}
-    for name, (said, factor) in known.items():
-        yield name, said, largest((seen.q / factor - seen.true) / seen.scale)
+def _slips(seen: _Seen) -> _Suspects:
+    """Yield factors by which the columns are off."""
+    for name, (said, factors) in seen.case.slips.items():
+        off = seen.q / np.array(factors) - seen.true
+        yield name, said, largest(off / seen.scale)
 
 
 def _inertial(seen: _Seen) -> _Suspects:
     """Yield q taken across a line that does not turn: the tip's position, or its displacement."""
     case = seen.case
-    if not case.is_spun_up or largest(seen.q) < 0.5 * case.blade.length:
-        return  # a tip that turns goes farther, which a theory of a second is needed for
-    rotation: Any = case.rotation
-    found = spin_up_response(
-        case.blade, rotation, seen.time, tolerance=0.1 * SMALL, loads=case.loads
+    if not (case.is_spun_up and case.is_quick) or largest(seen.q) < 0.5 * case.blade.length:
+        return  # a tip that turns goes farther
+    response = spin_up_response(
+        case.blade, case.spin_up, seen.time, tolerance=0.1 * SMALL, loads=case.loads
     )
     reach = case.blade.hub_radius + case.blade.length
-    off = seen.q - found.from_axis[:, 1]
-    moved = off + reach * np.sin(rotation.angle(seen.time))
+    off = seen.q - response.from_axis[:, 1]
+    moved = off + reach * np.sin(case.spin_up.angle(seen.time))
     said = "q is taken along an axis that does not turn: turn it by -θ(t), q = y cos θ - x sin θ"
     yield "inertial axis", said, min(largest(off / seen.scale), largest(moved / seen.scale))
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from analytic.arrays import FloatArray
 
-from ..cases import Asked, Case
+from ..case import SIGNS, TWISTED, Asked, Case
 from ..judgement import THRESHOLDS
 from ..references import Reference, row_of
 from ..submission import Row
-from .histories import SIGNS, TWISTED, UNITS, Mistake, explaining, largest
+from .histories import UNITS, Mistake, explaining, largest
 
 _Suspects = Iterator[tuple[str, str, FloatArray]]
 """Name, sentence, and the numbers that a right code hands in with the mistake."""
@@ -87,11 +87,11 @@ def _of_frequencies(
 
     yield from _other_units(true)
     yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
-    if not case.in_space:
+    if case.count == 1:  # the first in the plane
         yield from _other_motions(true, speeds, float(at(0.0)[0]))
     yield from _bins(found, true)
     for name, (said, factor) in _SPEED_UNITS.items():
-        if not case.in_space or not factor:  # whose modes take a tenth of a second
+        if case.is_quick or not factor:
             yield name, said, at(factor)
 
 

@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from ...files.results import whole_file
-from ..cases import CASES, Asked, Case
+from ..case import Asked, Case
+from ..cases import CASES
 from ..history import FREE_FOR, free_frequency
 from ..submission import Row, Submission
 from . import entry, runs, tables

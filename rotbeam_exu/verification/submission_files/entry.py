@@ -51,7 +51,7 @@ def declaration_of(folder: Folder) -> Declaration | None:
     return Declaration(**stated, theory=theory, inextensible="inextensible" in tags)
 
 
-def _stated(key: str, value: Any) -> Any:
+def _stated(key: str, value: object) -> object:
     """Return the declared value of a key; TypeError or ValueError with the sentence."""
     if key not in _KEYS:
         raise ValueError(f"unknown key {shown(key)}; {near(key, _KEYS)}")
@@ -67,7 +67,7 @@ def _stated(key: str, value: Any) -> Any:
     return declared(key, value)
 
 
-def _tags(value: Any) -> tuple[str, ...]:
+def _tags(value: object) -> tuple[str, ...]:
     """Return the tags."""
     if not (isinstance(value, list) and all(isinstance(one, str) for one in value)):
         raise ValueError('tags must be a list of texts, as tags = ["...", "..."]')
@@ -77,7 +77,7 @@ def _tags(value: Any) -> tuple[str, ...]:
     return tuple(value)
 
 
-def _sheared(stated: Any) -> Theory:
+def _sheared(stated: object) -> Theory:
     """Return the theory of the table [shear]."""
     rest = dict(stated) if isinstance(stated, dict) else {}
     law = rest.pop("law", _LAWS[0])

@@ -11,7 +11,8 @@ import numpy as np
 
 from analytic.arrays import FloatArray
 
-from ..cases import CASES, Case
+from ..case import Case
+from ..cases import CASES
 from ..submission import Run
 from . import tables
 from .faults import Folder, several
@@ -47,7 +48,7 @@ def runs_of(folder: Folder, only: Collection[str]) -> tuple[Run, ...]:
         if "failure" in row:
             found.append(Run(**row, time=np.empty(0), q=np.empty(0)))
         elif samples := history_of(folder, row["file"], case, step):
-            found.append(Run(**row, **samples))
+            found.append(Run(**{**row, **samples}))
     complete, known = not folder.is_faulty(FILE), {row["file"] for row in listed}
     for file in there:
         if file in known:
@@ -92,13 +93,13 @@ def _listed(folder: Folder) -> Iterator[dict[str, Any]]:
         folder.add(FILE, said, line)
 
 
-def history_of(folder: Folder, file: str, case: Case, step: float) -> dict[str, Any] | None:
+def history_of(folder: Folder, file: str, case: Case, step: float) -> dict[str, FloatArray] | None:
     """Return time and q up to the end of the case, and the error that the last digits leave.
 
     None if something is wrong. In space q is lag, flap and twist, (samples, 3). `step` is NaN where
     it is not known. A rate, q_dot, is not judged.
     """
-    sheet = tables.sheet_of(folder, file, tables.IN_SPACE if case.in_space else tables.IN_PLANE)
+    sheet = tables.sheet_of(folder, file, tables.HISTORY[case.columns])
     if not sheet.rows:
         return None
     shape = len(sheet.rows), len(sheet.columns)
@@ -135,8 +136,9 @@ def history_of(folder: Folder, file: str, case: Case, step: float) -> dict[str, 
     if late and not (late <= (0.5 + _SLACK) * step and off < _SLACK):
         lost += late * np.abs(np.gradient(tip, time, axis=1)).max(axis=1)
     within = time <= case.duration
-    q, lost = (tip.T, lost) if case.in_space else (tip[0], lost[0])
-    return {"time": time[within], "q": q[within], "rounding": lost}
+    return {
+        "time": time[within], "q": case.joined(tip)[within], "rounding": case.joined(lost)
+    }  # fmt: skip
 
 
 def _unfit(

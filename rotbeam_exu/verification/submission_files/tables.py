@@ -18,7 +18,8 @@ import numpy as np
 
 from analytic.letters import plain_text
 
-from ..cases import CASES, TIP, Asked, Case
+from ..case import TIP, Asked, Case
+from ..cases import CASES
 from ..submission import LONGEST_REMARKS
 from .faults import Folder, near, shown
 
@@ -66,7 +67,7 @@ class Column:
     unit: str = ""
     must: str = ""
     among: Sequence[float] = ()
-    text: Callable[[str], Any] | None = None
+    text: Callable[[str], str | re.Match[str]] | None = None
     needed: bool = True
     measured: bool = False
 
@@ -136,9 +137,11 @@ RUNS = (
 
 _TIME = Column("time", "s")
 _TIP = tuple(Column(name, "rad" if name == "twist" else "m", measured=True) for name in TIP)
-IN_SPACE = (_TIME, *_TIP)
-IN_PLANE = (_TIME, Column("q", "m"), Column("q_dot", "m/s", needed=False, measured=True))
-"""Columns of histories."""
+HISTORY = {
+    TIP: (_TIME, *_TIP),
+    ("q",): (_TIME, Column("q", "m"), Column("q_dot", "m/s", needed=False, measured=True)),
+}
+"""Columns of histories by `Case.columns`."""
 
 
 def columns_of(case: Case) -> tuple[Column, ...]:

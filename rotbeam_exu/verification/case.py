@@ -1,0 +1,256 @@
+"""A case of the benchmark: a blade, its motion and loads, and the quantity asked for.
+
+A case answers for its kind: the columns of its histories, the theory and the modes of its
+reference, and the usual slips in the tip. A kind is a class: `Case` in the plane, `SpaceCase`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from analytic import Blade, SteadyRotation, linear_modes, periodic_orbits
+from analytic.arrays import FloatArray
+from analytic.exact.continuum.state import BeamState, kicked_state
+from analytic.exact.linear.modes import driven_modes
+from analytic.loads import Load
+from analytic.motion import SpeedChange
+from analytic.theory import BERNOULLI_EULER, Theory
+
+if TYPE_CHECKING:
+    from analytic.exact.free.orbits import Orbits
+
+
+class Level(StrEnum):
+    """Demand that a case makes on a code."""
+
+    BASIC = "basic"
+    MODERATE = "moderate"
+    HARD = "hard"
+    BLADE = "blade"
+    SPACE = "space"
+
+
+class Asked(StrEnum):
+    """Result that is handed in."""
+
+    FREQUENCIES = "natural frequencies at each speed"
+    STEADY = "steady deflection of the tip at each speed"
+    HISTORY = "deflection of the tip over time"
+    BACKBONE = "nonlinear frequency at each speed and amplitude"
+
+
+TIP = ("lag", "flap", "twist")
+"""The tip in space, as `SpinUpResponse` has it: two places [m], and the section's turn [rad]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """One task, of a blade that bends in the plane of rotation.
+
+    Attributes
+    ----------
+    name : str
+        As files and folders are named: "L", "S1", "S1+h".
+    level : Level
+    title : str
+        In a few words.
+    asked : Asked
+    blade : Blade
+        Damping included.
+    motion : SpeedChange or SteadyRotation, optional
+        How the clamp turns, of a history.
+    duration : float
+        Of the history [s].
+    speeds : tuple of float
+        Of frequencies, steady deflections and backbones [rad/s].
+    count : int
+        Number of frequencies at each speed, by their number.
+    amplitudes : tuple of float
+        Peak |q|/L: of a history the orbit it starts on, of a backbone its points.
+    loads : tuple
+    kick : float
+        Speed of the tip out of the plane at t = 0 [m/s], as `spin_up_response` has it.
+    oscillates : bool
+        Whether the history ends in a steady oscillation, whose amplitude and frequency are judged.
+    theories : tuple of Theory
+        Those whose references come with the package, as codes declare them.
+    columns : tuple of str
+        Columns of its histories besides the time.
+    sizes : tuple of float
+        Units of the tip beside which errors are small: lengths, and one radian.
+    is_quick : bool
+        Whether theory answers in a second or two, so that mistakes are planted into it.
+    slips : dict
+        By name of a mistake, the sentence on it and the factors by which the tip is off.
+    """
+
+    name: str
+    level: Level
+    title: str
+    asked: Asked
+    blade: Blade
+    motion: SpeedChange | SteadyRotation | None = None
+    duration: float = 0.0
+    speeds: tuple[float, ...] = ()
+    amplitudes: tuple[float, ...] = ()
+    loads: tuple[Load, ...] = ()
+    kick: float = 0.0
+    oscillates: bool = False
+    count: int = 1
+    theories: tuple[Theory, ...] = (BERNOULLI_EULER,)
+
+    def __post_init__(self) -> None:
+        """Refuse a load that the reference would leave out."""
+        steady = self.asked is Asked.STEADY
+        for load in () if self.is_spun_up else self.loads:
+            if not (steady and _is_weight(load)):
+                raise ValueError(
+                    f"the reference of case {self.name}, {self.asked}, knows no {load!r}: "
+                    + ("weight along the axis of rotation alone" if steady else "take a spin-up")
+                )
+
+    columns: ClassVar[tuple[str, ...]] = ("q",)
+    is_quick: ClassVar[bool] = True
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        """L of q."""
+        return (self.blade.length,)
+
+    @property
+    def slips(self) -> Mapping[str, tuple[str, Sequence[float]]]:
+        """Sign and unit of q."""
+        return {
+            "sign of q": (
+                "q has the wrong sign: it is negative while the rotation speeds up, Eq. 16", (-1.0,)
+            ),
+            "q over L": ("q is over L: hand it in in metres", (1.0 / self.blade.length,)),
+            "millimetres": ("q is in millimetres: hand it in in metres", (1e3,)),
+        }  # fmt: skip
+
+    def theory_of(self, declared: Theory) -> Theory:
+        """Return the theory by which a code is judged that declares one."""
+        return replace(declared, trapeze=True)  # which the plane does not know
+
+    def frequencies(self, speed: float, theory: Theory) -> FloatArray:
+        """Return the exact natural frequencies [rad/s] at a speed [rad/s], (count,)."""
+        return driven_modes(self.blade, speed, self.count, theory=theory).frequencies
+
+    def joined(self, tip: Sequence[FloatArray] | FloatArray) -> FloatArray:
+        """Return the columns of a history as one array: q (samples,), of several (samples, n)."""
+        return np.asarray(tip[0] if len(self.columns) == 1 else np.stack(list(tip), axis=-1))
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Quantities that are judged of it."""
+        if self.asked is Asked.HISTORY:
+            return ("history", "amplitude", "nonlinear shift")[: 3 if self.oscillates else 1]
+        return ("frequencies",) if self.count > 1 else (_QUANTITIES[self.asked],)
+
+    @property
+    def is_spun_up(self) -> bool:
+        """True where its history starts straight; else it starts on an orbit."""
+        return self.motion is not None and not self.amplitudes
+
+    @property
+    def rotation(self) -> SpeedChange | SteadyRotation:
+        """Rotation of the clamp of a history; ValueError if the case asks for none."""
+        if self.motion is None:
+            raise ValueError(f"case {self.name} has several speeds: say which")
+        return self.motion
+
+    @property
+    def spin_up(self) -> SpeedChange:
+        """Rotation of the clamp of a history that starts straight; ValueError of others."""
+        if not isinstance(self.motion, SpeedChange):
+            raise ValueError(f"case {self.name} is not spun up, its motion is {self.motion!r}")
+        return self.motion
+
+    @property
+    def ramp_time(self) -> float:
+        """Time in which it is spun up [s]; 0 of a steady rotation."""
+        return self.rotation.ramp_time
+
+    @cached_property
+    def orbit(self) -> Orbits:
+        """Exact orbit that its history starts on, at phase 0; ValueError if it starts at rest."""
+        if self.motion is None or not self.amplitudes:
+            raise ValueError(f"case {self.name} starts at rest, on no orbit")
+        return periodic_orbits(self.blade, self.motion.omega, self.amplitudes)
+
+    @property
+    def start(self) -> Callable[[FloatArray], BeamState] | None:
+        """State at material points x [m] at t = 0; None of a beam that starts straight, at rest."""
+        if self.kick:
+            return partial(kicked_state, self.blade.length, self.kick)
+        return None if self.is_spun_up else partial(self.orbit.state, 0)
+
+    def whole_duration(self, step: float) -> float:
+        """Return the duration, or a little more that is a whole number of steps [s]."""
+        return math.ceil(self.duration / step * (1.0 - 1e-12)) * step
+
+
+TWISTED = "twist is the other way round: it turns the chord from the direction of rotation up"
+_OTHER = "is the other way round: lag grows along the rotation, flap up, twist from lag to flap"
+SIGNS = {
+    "sign of lag": (f"lag {_OTHER}", (-1.0, 1.0, 1.0)),
+    "sign of flap": (f"flap {_OTHER}", (1.0, -1.0, 1.0)),
+    "sign of twist": (f"twist {_OTHER}", (1.0, 1.0, -1.0)),
+    "degrees": ("the twist is in degrees: hand it in in rad", (1.0, 1.0, 180.0 / math.pi)),
+}
+"""Factors of lag, flap and twist by which a tip in space may be off, and what is said of them."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpaceCase(Case):
+    """A task of a blade that flaps and twists as well: its histories are those of `TIP`."""
+
+    columns: ClassVar[tuple[str, ...]] = TIP
+    is_quick: ClassVar[bool] = False
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        """L of lag and flap, a radian of the twist."""
+        return self.blade.length, self.blade.length, 1.0
+
+    @property
+    def slips(self) -> Mapping[str, tuple[str, Sequence[float]]]:
+        """Signs and units, and the mirror of a blade that is built or kicked wrongly."""
+        name, said = "sign of the blade's twist", f"the blade's {TWISTED}"
+        if self.kick:
+            name = "sign of the kick"
+            said = "the kick is the other way round: it goes up, along the axis"
+        return {**SIGNS, name: (said, (1.0, -1.0, -1.0))}
+
+    def theory_of(self, declared: Theory) -> Theory:
+        """Return the theory by which a code is judged that declares one.
+
+        Slices have their inertia about all axes, and twist does not shorten the axis: the beam of
+        Reissner and Simo, or of Kirchhoff without shear.
+        """
+        return replace(declared, rotary_inertia=True, trapeze=False, engesser=False)
+
+    def frequencies(self, speed: float, theory: Theory) -> FloatArray:
+        """Return the exact natural frequencies [rad/s] of all motions at a speed, (count,)."""
+        return linear_modes(self.blade, speed, self.count, theory=theory).frequencies
+
+
+def _is_weight(load: Load) -> bool:
+    """Whether a load is a steady weight along the axis of rotation."""
+    in_plane = load.force(np.zeros(1), np.ones(1), 1.0)
+    small = float(np.abs(in_plane).max()) < 1e-12 * abs(load.size)
+    return small and load.acts_on == "mass" and not load.frequency
+
+
+_QUANTITIES = {
+    Asked.FREQUENCIES: "linear frequency",
+    Asked.STEADY: "steady deflection",
+    Asked.BACKBONE: "backbone",
+}
