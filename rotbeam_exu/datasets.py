@@ -227,7 +227,7 @@ def _(response: ForcedResponse) -> xr.Dataset:
     data = _curve(response)
     data = data.assign_attrs(stable_covers=response.covers)
     if (found := response._growth) is None:
-        if response.blade.section.out_of_plane is None or response._in_space:
+        if response.blade.section.out_of_plane is None or response._beyond is None:
             return data
         return data.assign_attrs(planar=f"Stability is about {response.covers}")
     growth = {
@@ -263,7 +263,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
         try:
             backbone = response.backbone.orbits(np.linspace(0.0, response.amplitude.max(), 13)[1:])
         except AmplitudeNotReachedError as error:
-            backbone = error.orbits  # what of it is reached
+            backbone = error.part  # what of it is reached
     if backbone is not None:
         free = np.append(backbone.omega_n, backbone.frequency)
         label = "frequency of the free, undamped orbit [rad/s]"

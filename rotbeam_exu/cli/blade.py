@@ -18,7 +18,7 @@ from .options import TheoryPairs, theory_of
 from .output import bar, formatted, print_columns, print_line, print_note
 
 if TYPE_CHECKING:
-    from analytic.exact.linear.space_modes import LinearModes
+    from analytic.exact.linear.families import LinearModes
 
 _COUNT = 6  # modes
 

@@ -185,7 +185,7 @@ def test_rates_and_gradients_of_a_shape_are_those_of_differences(shear):
         return (of(q + h * q_dot) - of(q - h * q_dot)) / (2.0 * h)
 
     assert model.tip_rate(q, q_dot) == pytest.approx(rate(model.tip), abs=1e-8)
-    gradient = np.sum(model.tip_gradient(q) * q_dot, axis=1)
+    gradient = np.sum(model.tip_gradient(q) * q_dot[:, None], axis=2)
     assert gradient == pytest.approx(rate(model.tip), abs=1e-8)
     slope = rate(lambda at: model.slope(at, x))
     assert model.slope_rate(q, q_dot, x) == pytest.approx(slope, abs=1e-8)

@@ -127,7 +127,7 @@ def test_amplitude_not_reached(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError, match="; ask for smaller amplitudes$") as caught:
         periodic_orbits(beam, 6.0, [0.1, 0.6])
-    assert caught.value.orbits.amplitude.tolist() == [0.1]
+    assert caught.value.part.amplitude.tolist() == [0.1]
     reached = float(re.search(r"last amplitude reached is ([0-9.]+)", str(caught.value))[1])
     assert complaint(periodic_orbits, beam, 6.0, [0.99 * reached]) == ""
 

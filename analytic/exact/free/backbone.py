@@ -12,10 +12,8 @@ from ...input_checks import peak_deflection, rotation_speed, whole_number
 from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..continuum.planar_rotation import resolved_model
-from ..continuum.rotation import lives_in_space, space_continuum
+from ..continuum.rotation import GAUGES, continuum_of
 from ..linear.modes import mode_name
-from ..linear.space_modes import DIRECTIONS
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
 from .leaving import LeavingBranch, leaving_branch
@@ -61,7 +59,7 @@ class Backbone(ModePath):
         Raises
         ------
         ValueError
-            If the orbits are not in the plane: tongues are followed there only.
+            If `up_to` is refused.
         AmplitudeNotReachedError
             If no orbit grows out of the mode.
 
@@ -73,10 +71,6 @@ class Backbone(ModePath):
         ...     print(f"harmonic {one.harmonic} meets {one.mode} at a = {one.amplitude:.4f}")
         harmonic 16 meets lag 3 at a = 0.1269
         """
-        self._require_plane(
-            "internal resonances are followed for planar blades only: take orbits, which end or "
-            "warn near one"
-        )
         return followed_branch(self, peak_deflection("up_to", up_to))
 
     @one_thread
@@ -113,17 +107,14 @@ class Backbone(ModePath):
         >>> print(f"{found.born.amplitude:.6f}")
         0.007719
         """
-        self._require_plane("orbits in space have no plane to leave: take those of lag")
+        if self.model.beyond(self.blade, self.theory) is None:
+            raise ValueError("orbits in space have no plane to leave: take those of lag")
         low, high = peak_deflection("low", low), peak_deflection("high", high)
         if not low < high:
             raise ValueError(f"low must be below high, got {low:g} and {high:g}")
         if whole_number("periods", periods) > 2:
             raise ValueError(f"periods must be 1 or 2, got {periods}")
         return leaving_branch(self, low, high, periods, whole_number("points", points))
-
-    def _require_plane(self, sentence: str) -> None:
-        if self.model.in_space:
-            raise ValueError(sentence)
 
 
 def backbone(
@@ -171,21 +162,16 @@ def backbone(
     require_undamped(blade, _NO_FREE_ORBITS, planar=False)
     name = mode_name(blade, omega, mode, theory)
     family, number = name.split()
-    if family not in DIRECTIONS:
+    if family not in GAUGES:
         raise ValueError(
             f"the amplitude of orbits is how far the tip moves across, and mode is {name!r}: take "
             "a mode of lag or flap"
         )
-    out_of_plane = family == "flap" and blade.section.knows_space
-    if lives_in_space(blade) or out_of_plane:
-        in_space = space_continuum(blade, theory, max(functions // 2, 2 * int(number) + 2))
-        care = Care(tail=in_space.functions.blade.tail)
-        return Backbone(
-            blade=blade, omega=omega, mode=name, theory=theory, model=in_space, care=care
-        )
-    require_undamped(blade, _NO_FREE_ORBITS)
-    model = resolved_model(blade, int(number), theory, functions)
-    return Backbone(blade=blade, omega=omega, mode=name, theory=theory, model=model)
+    leaves = family == "flap" and blade.section.knows_space
+    each = max(functions // 2, 2 * int(number) + 2)
+    model = continuum_of(blade, theory, functions, each, mode=int(number), leaves=leaves)
+    care = Care(tail=model.tail)
+    return Backbone(blade=blade, omega=omega, mode=name, theory=theory, model=model, care=care)
 
 
 def periodic_orbits(
@@ -218,7 +204,7 @@ def periodic_orbits(
     ValueError
         If an argument is out of range, or the mode beyond what the functions resolve.
     AmplitudeNotReachedError
-        If an amplitude is not reached with a small residual; its `.orbits` are those below.
+        If an amplitude is not reached with a small residual; its `.part` are the orbits below.
 
     Warns
     -----

@@ -72,7 +72,7 @@ def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
     assert tongue[-1] < tongue.max() - 0.02
     assert "6:lag 2 at 0.64" in str(branch)
     state = branch.state(len(branch.amplitude) - 1, [8.0], phase=0.3)
-    assert np.isfinite(state.v).all()
+    assert np.isfinite(state.place).all()
 
 
 def test_pieces_leave_the_main_path_and_hold_orbits(branch):
