@@ -228,6 +228,10 @@ class Continuum(Kinematics):
         """Cos ψ, by which loads in the plane of rotation act across the blade."""
         return self.blade.setting
 
+    def skews(self, rate: float) -> bool:
+        """Whether Coriolis forces tell the two sides of a swing, so that it has even harmonics."""
+        return abs(rate * self.blade.setting) > 1e-9
+
     def family(self, gauge: str) -> str:
         """Return the family of modes that move the tip: set steeply, lag becomes flap."""
         return gauge if self.blade.setting**2 > 0.5 else "flap"
@@ -322,6 +326,11 @@ class Continuum(Kinematics):
     def extends(self) -> bool:
         """Whether tension stretches the axis."""
         return self.slenderness > 0.0
+
+    @property
+    def resolved(self) -> int:
+        """Number of modes that the functions resolve."""
+        return self.bending // 2
 
     @property
     def blocks(self) -> list[NDArray[np.bool_]]:

@@ -331,6 +331,11 @@ class SpaceContinuum:
         return self.functions.uncoupled
 
     @property
+    def resolved(self) -> int:
+        """Number of modes that the functions resolve: half of those for each curvature."""
+        return self.bending
+
+    @property
     def blocks(self) -> list[NDArray[np.bool_]]:
         """Coordinates of lag and axial motion, which the plane's mirror keeps, and the others."""
         across = self.functions.odd_by(mirror=False) ^ self.functions.odd_by(mirror=True)
@@ -340,6 +345,10 @@ class SpaceContinuum:
         """Return None: no motion is beyond its own, as that out of a plane is."""
         del blade, theory
         return None
+
+    def skews(self, rate: float) -> bool:
+        """Whether Coriolis forces or its shape tell the sides of a swing: it has even harmonics."""
+        return abs(rate) > 1e-9 or not self.blade.half_turn
 
     def family(self, gauge: str) -> str:
         """Return the family of modes that move the tip along the gauge."""

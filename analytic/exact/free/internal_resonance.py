@@ -121,9 +121,9 @@ def _pole(orbits: Sequence[BladeOrbit], k: int) -> float | None:
     for last, orbit in pairwise(orbits):
         if k > min(last.harmonics, orbit.harmonics):
             continue
-        before, after = (o.gauge_sines[k - 1] / o.gauge_sines[0] for o in (last, orbit))
-        if before * after < 0.0 and min(abs(before), abs(after)) > _FELT:
-            share = (1.0 / before) / (1.0 / before - 1.0 / after)
+        before, after = (o.gauge_harmonics[k] / o.gauge_harmonics[1] for o in (last, orbit))
+        if (before * after.conj()).real < 0.0 and min(abs(before), abs(after)) > _FELT:
+            share = (1.0 / abs(before)) / (1.0 / abs(before) + 1.0 / abs(after))
             return float(last.amplitude + share * (orbit.amplitude - last.amplitude))
     return None
 
@@ -149,7 +149,7 @@ def pinned(
             found.append(at(inside))
         except NoOrbitError:
             break
-        if found[-1].gauge_sines[k - 1] * below.gauge_sines[k - 1] > 0.0:
+        if (found[-1].gauge_harmonics[k] * below.gauge_harmonics[k].conj()).real > 0.0:
             below = found[-1]
         else:
             above = found[-1]
@@ -157,9 +157,8 @@ def pinned(
 
 
 def _drives(orbit: BladeOrbit, k: int) -> bool:
-    """Return whether the orbit has harmonic k at all: without Coriolis forces no even ones."""
-    coupled = orbit.system.rate * orbit.system.model.setting
-    return k % 2 == 1 or abs(coupled) > 1e-9
+    """Return whether the orbit has harmonic k at all: some have no even ones."""
+    return k % 2 == 1 or bool(orbit.system.model.skews(orbit.system.rate))
 
 
 def nearest_resonance(of: ModePath, orbits: Sequence[BladeOrbit]) -> str:

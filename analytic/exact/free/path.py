@@ -123,7 +123,7 @@ class ModePath:
                         seed=seed, double=double, longest=_LONGEST_STEP,
                         care=self.care, tangent=tangent,
                     )  # fmt: skip
-                    count = max(steady.functions // 2, place + 1)
+                    count = max(steady.model.resolved, place + 1)
                     return frequencies[:count], modes.names[:count], path
                 slow = double.truncation > 0.5 * double.residual
                 reason = (

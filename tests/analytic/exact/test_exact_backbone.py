@@ -117,8 +117,13 @@ def test_orbit_response_and_state_tell_the_same(beam, wide):
     assert series == pytest.approx(x, abs=1e-9)
 
 
-def test_state_is_consistent_in_space_and_time(wide):
+@pytest.mark.parametrize("twist", [0.0, 0.5])
+def test_state_is_consistent_in_space_and_time(wide, twist):
+    """In the plane, and of a twisted blade that shears."""
     b = wide
+    if twist:
+        blade = b.blade.with_section_out_of_plane(0.3, 0.2).with_twist(twist)
+        b = periodic_orbits(blade, 4.0, [0.05], theory=Theory(shear=0.3))
     x, phase, h = np.linspace(0.0, 8.0, 9), 0.7, 1e-4
     here = b.state(0, x, phase)
     ahead, behind = (b.state(0, x, phase + s * h * b.frequency[0]) for s in (1.0, -1.0))
@@ -223,7 +228,8 @@ def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
 
 
 def test_orbits_found_are_attached(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
+    few = Care(harmonics=12)
+    monkeypatch.setattr("analytic.exact.free.backbone.Care", lambda tail: few)
     asked = [0.2, 0.6, 0.1, 0.2]
     with pytest.raises(AmplitudeNotReachedError, match=r"of 0\.6 was found") as caught:
         periodic_orbits(beam, 6.0, asked)
