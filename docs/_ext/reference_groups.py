@@ -73,7 +73,7 @@ GROUPS = (
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
         analytic="stability_limit",
-        analytic__exact__plane__growth="GrowthOutOfPlane",
+        analytic__exact__stability__growth="GrowthOutOfPlane",
         analytic__exact__free__stability_limit="StabilityLimit Tongue",
     ),
     _group(
