@@ -49,7 +49,9 @@ class Backbone(ModePath):
 
         The main path is the path of `orbits`, on up to 120 harmonics. If a harmonic meets another
         mode and is felt, the orbits are followed by arclength from either side, through the folds
-        of the resonance and a way into its tongue. There the other mode takes over.
+        of the resonance and a way into its tongue. There the other mode takes over. The lowest four
+        other modes are looked at: in the plane if the orbits are (`leaving` has the way out of it),
+        of all families in space.
 
         Parameters
         ----------
