@@ -239,12 +239,11 @@ class SteadyBlade:
         """
         still, rate = np.zeros((1, self.size)), share * self.rate
         push = None if self.push is None else share * self.push
-        # A moment that keeps its direction has no potential.
-        values = np.linalg.eigvals if push is not None and push[2].any() else np.linalg.eigvalsh
+        turned = push is not None and push[2].any()
         sizes: list[float] = []
         for _ in range(_CHANGES):
             tangent = self.model.tangent(q[None], still, still, Driven(rate, push=push))
-            if not values(tangent.stiffness[0]).real.min() > 0.0:
+            if not _positive(tangent.stiffness[0], symmetric=not turned):
                 return None
             change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
             q = q - change
@@ -257,7 +256,13 @@ class SteadyBlade:
 
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the tip's place along the component, from the steady state, (samples,)."""
-        return np.asarray(self.model.tip(q)[:, self.component] - self.tip[self.component])
+        return np.asarray(self.model.tip(q)[:, self.component] - self._still)
+
+    @cached_property
+    def _still(self) -> float:
+        """The component in the steady state: zero of a blade that stays straight."""
+        straight = self.push is None and self.model.uncoupled
+        return 0.0 if straight else float(self.tip[self.component])
 
     def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return its rate, (samples,)."""
@@ -321,6 +326,17 @@ class SteadyBlade:
         """The tangent at the steady state, (1, n, n)."""
         still = np.zeros((1, self.size))
         return self.tangent(self.equilibrium[None], still, still)
+
+
+def _positive(stiffness: FloatArray, *, symmetric: bool) -> bool:
+    """Whether a state is stable; a moment that keeps its direction has no potential."""
+    if not symmetric:
+        return bool(np.linalg.eigvals(stiffness).real.min() > 0.0)
+    try:
+        np.linalg.cholesky(stiffness)
+    except np.linalg.LinAlgError:
+        return False
+    return True
 
 
 BladeOrbit = Orbit[SteadyBlade]
