@@ -116,7 +116,7 @@ def test_functions_and_modes(beam):
 
 
 def test_unsettled_frequencies(monkeypatch):
-    monkeypatch.setattr("analytic.exact.linear.modes.MOST_FUNCTIONS", 60)
+    monkeypatch.setattr("analytic.exact.continuum.planar.Continuum.most_functions", 60)
     beam = unit_beam(1e-12)
     options = {"count": 1, "theory": Theory(extension=False), "functions": 40}
     assert complaint(linear_modes, beam, 2e3, **options).endswith("rotate slower")

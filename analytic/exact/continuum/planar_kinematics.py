@@ -165,12 +165,12 @@ class Kinematics:
         """Return the derivatives of the tip's place to the coordinates, (samples, 2, n)."""
         turn = np.exp(1j * self._angle(q)) * self.weights
         turning = 1j * (1.0 + self._strain(q)) * turn
-        return np.moveaxis(parts_of(np.hstack((turning @ self._phi, turn @ self._psi))), -1, 1)
+        return parts_of(np.hstack((turning @ self._phi, turn @ self._psi))).swapaxes(1, 2)
 
 
 def parts_of(z: ComplexArray) -> FloatArray:
     """Return real and imaginary part along one more axis, the last."""
-    return np.stack((z.real, z.imag), axis=-1)
+    return np.ascontiguousarray(z).view(np.float64).reshape(*z.shape, 2)
 
 
 def in_plane_of_bending(angle: FloatArray, setting: float) -> FloatArray:

@@ -197,9 +197,18 @@ class SteadyBlade:
         """The first coordinate of the gauge's curvature."""
         return self.component - 1
 
-    @cached_property
+    @property
     def equilibrium(self) -> FloatArray:
         """Coordinates (n,) of the steady state; refused if it ends, or gets unstable, before."""
+        return self._steady[0]
+
+    @property
+    def linearized(self) -> Tangent:
+        """The tangent at the steady state, (1, n, n)."""
+        return self._steady[1]
+
+    @cached_property
+    def _steady(self) -> tuple[FloatArray, Tangent]:
         found = None if self.near is None else self._newton(self.near, 1.0)
         if found is not None:
             return found
@@ -212,7 +221,7 @@ class SteadyBlade:
             if found is not None:
                 if share == 1.0:
                     return found
-                q, reached, step = found, share, 2.0 * step
+                q, reached, step = found[0], share, 2.0 * step
             else:
                 step = 0.5 * (share - reached)
                 if step <= _SHORTEST * reached:
@@ -230,8 +239,8 @@ class SteadyBlade:
             remedies.append("load it less, and check its unit")
         return f"the steady state {how} at {' and '.join(at)}: {', or '.join(remedies)}"
 
-    def _newton(self, q: FloatArray, share: float) -> FloatArray | None:
-        """Return the state that `q` (n,) goes over into at shares of speed and load.
+    def _newton(self, q: FloatArray, share: float) -> tuple[FloatArray, Tangent] | None:
+        """Return the state that `q` (n,) goes over into at shares of speed and load; its tangent.
 
         None where it may be one of another branch: the tangent must stay stable, and the second
         change be less than a quarter of the first, as it is where the theorem of Newton and
@@ -249,7 +258,7 @@ class SteadyBlade:
             q = q - change
             sizes.append(float(np.linalg.norm(change)))
             if sizes[-1] <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
-                return q
+                return q, tangent
             if len(sizes) == 2 and not sizes[1] <= _CONTRACTION * sizes[0]:
                 return None
         return None
@@ -320,12 +329,6 @@ class SteadyBlade:
     def tip(self) -> FloatArray:
         """Place of the tip from the clamp in the steady state."""
         return np.asarray(self.model.tip(self.equilibrium[None])[0])
-
-    @cached_property
-    def linearized(self) -> Tangent:
-        """The tangent at the steady state, (1, n, n)."""
-        still = np.zeros((1, self.size))
-        return self.tangent(self.equilibrium[None], still, still)
 
 
 def _positive(stiffness: FloatArray, *, symmetric: bool) -> bool:

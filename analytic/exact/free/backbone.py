@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import require_undamped, warn_if_rpm
 from ...input_checks import peak_deflection, rotation_speed, whole_number
-from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..continuum.rotation import GAUGES, continuum_of
@@ -172,8 +171,8 @@ def backbone(
     leaves = family == "flap" and blade.section.knows_space
     each = max(functions // 2, 2 * int(number) + 2)
     model = continuum_of(blade, theory, functions, each, mode=int(number), leaves=leaves)
-    care = Care(tail=model.tail)
-    return Backbone(blade=blade, omega=omega, mode=name, theory=theory, model=model, care=care)
+    of = Backbone(blade=blade, omega=omega, mode=name, theory=theory, model=model)
+    return replace(of, care=of.care._replace(tail=model.tail))
 
 
 def periodic_orbits(

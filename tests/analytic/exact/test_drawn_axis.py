@@ -58,6 +58,6 @@ def test_beyond_the_ends_and_not_a_number(methods, method):
 
 
 def test_the_ends_themselves(methods):
-    assert methods["state"]([0.0, 8.0]).v[0] == 0.0
+    assert methods["state"]([0.0, 8.0]).place[0, 1] == 0.0
     round_off = np.nextafter(8.0, 9.0)
     assert methods["shapes"](round_off)[1] == pytest.approx(1.0)

@@ -228,8 +228,7 @@ def test_amplitudes_of_the_orbits_it_starts_from(beam, amplitudes):
 
 
 def test_orbits_found_are_attached(beam, monkeypatch):
-    few = Care(harmonics=12)
-    monkeypatch.setattr("analytic.exact.free.backbone.Care", lambda tail: few)
+    monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
     asked = [0.2, 0.6, 0.1, 0.2]
     with pytest.raises(AmplitudeNotReachedError, match=r"of 0\.6 was found") as caught:
         periodic_orbits(beam, 6.0, asked)
