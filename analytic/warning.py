@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
+from typing import Any
 
 
 class RotbeamWarning(UserWarning):
@@ -29,3 +30,11 @@ def warn(sentence: str) -> None:
     while frame.f_back and frame.f_globals["__name__"].split(".")[0] in ("analytic", "rotbeam_exu"):
         frame, level = frame.f_back, level + 1
     warnings.warn(sentence, RotbeamWarning, stacklevel=level)
+
+
+class PartialError(RuntimeError):
+    """An error with the `part` of its result that there is, None if there is none."""
+
+    def __init__(self, message: str, part: Any = None) -> None:
+        super().__init__(message)
+        self.part = part

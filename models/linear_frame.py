@@ -22,7 +22,7 @@ try:
     linear = simulate(beam, spin_up, element="linear", **job)
 except SimulationError as error:
     print(error)
-    linear = error.run
+    linear = error.part
 
 rate = Linearization.of(beam, spin_up.omega, element="linear").growth_rate
 expected = np.sqrt(spin_up.omega**2 - beam.omega_0**2)

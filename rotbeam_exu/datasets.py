@@ -230,7 +230,8 @@ def _(response: ForcedResponse) -> xr.Dataset:
     data = data.assign_attrs(stable_covers=response.covers)
     if (found := response._growth) is None:
         section = response.blade.section
-        if response._in_space or (section.out_of_plane is None and not section.knows_space):
+        unknown = section.out_of_plane is None and not section.knows_space
+        if response._beyond is None or unknown:
             return data
         return data.assign_attrs(planar=f"Stability is about {response.covers}")
     growth: dict[str, tuple[str, ArrayLike, str]] = {
@@ -266,7 +267,7 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
         try:
             backbone = response.backbone.orbits(np.linspace(0.0, response.amplitude.max(), 13)[1:])
         except AmplitudeNotReachedError as error:
-            backbone = error.orbits  # what of it is reached
+            backbone = error.part  # what of it is reached
     if backbone is not None:
         free = np.append(backbone.omega_n, backbone.frequency)
         label = "frequency of the free, undamped orbit [rad/s]"

@@ -17,7 +17,7 @@ from analytic.exact.free.leaving import LeavingBranch
 from analytic.exact.free.orbits import Orbits
 from analytic.exact.free.stability_limit import StabilityLimit
 from analytic.exact.linear.campbell import Campbell
-from analytic.exact.linear.space_modes import FAMILIES, LinearModes
+from analytic.exact.linear.families import FAMILIES, LinearModes
 from analytic.exact.linear.steady_state import SteadyState
 from analytic.exact.stability.growth import GrowthOutOfPlane
 from analytic.reduced.tables import PaperTable

@@ -187,9 +187,9 @@ def backbone(blade: Blade, speed: float) -> tuple[float, FloatArray, float]:
         try:
             found = periodic_orbits(blade, speed, np.concatenate((at[1:], halfway)))
         except AmplitudeNotReachedError as error:
-            if error.orbits is None:
+            if error.part is None:
                 raise
-            found = error.orbits
+            found = error.part
         finer = periodic_orbits(blade, speed, at[10:60:10], functions=24)
     values = (1.0 - found.frequency / found.omega_n) / found.amplitude**2
     of = {round(float(a), 9): float(c) for a, c in zip(found.amplitude, values, strict=True)}

@@ -28,7 +28,7 @@ from analytic.arrays import FloatArray
 from analytic.exact.continuum.planar_rotation import on_more
 from analytic.exact.continuum.rotation import space_continuum
 from analytic.exact.driven.transient import integrated
-from analytic.exact.linear.space_modes import flap_shape
+from analytic.exact.linear.families import flap_shape
 from analytic.motion import SpeedChange
 from analytic.threads import one_thread
 from rotbeam_exu import kicked, simulate

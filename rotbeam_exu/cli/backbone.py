@@ -137,9 +137,9 @@ def _exact(
         with bar("exact orbits"):
             return analytic.periodic_orbits(blade, omega, amplitude, mode, **how), ""
     except analytic.AmplitudeNotReachedError as error:
-        if error.orbits is None:
+        if error.part is None:
             raise
-        return error.orbits, str(error)
+        return error.part, str(error)
 
 
 def _frequencies(

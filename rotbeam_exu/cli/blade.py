@@ -16,7 +16,7 @@ from .output import bar, formatted, print_columns, print_line, print_note
 from .request import Request, uses
 
 if TYPE_CHECKING:
-    from analytic.exact.linear.space_modes import LinearModes
+    from analytic.exact.linear.families import LinearModes
 
 _COUNT = 6  # modes
 

@@ -11,6 +11,8 @@ from typing import Annotated, Any, TypeVar
 
 from cyclopts import Parameter
 
+from analytic.warning import PartialError
+
 from ..files.results import differing_inputs, save, save_tables, whole_file, writable_folder
 from ..lazily import xr
 from .output import print_written
@@ -19,9 +21,6 @@ R = TypeVar("R")
 
 Flag = Annotated[bool, Parameter(negative=(), show_default=False)]
 """A switch, off unless it is given."""
-
-_PARTS = {"run": "computed", "response": "found"}
-"""Attributes by which an error holds a part of the result, and a word for it."""
 
 
 @contextmanager
@@ -100,14 +99,13 @@ class Results:
             refuse_to_replace(inputs, Path(f"{path}{end}"), force=self.force)
         try:
             result: Any = compute() if compute else inputs
-        except RuntimeError as error:
-            for attribute, word in _PARTS.items():
-                if (part := getattr(error, attribute, None)) is not None:
-                    data = described(part).assign_attrs(verdict=f"failed: {error}")
-                    kept = saved(data, "-failed")[0]
-                    where = f"the part that was {word} is in {kept}, marked failed"
-                    raise RuntimeError(f"{error}; {where}") from error
-            raise
+        except PartialError as error:
+            if error.part is None:
+                raise
+            data = described(error.part).assign_attrs(verdict=f"failed: {error}")
+            kept = saved(data, "-failed")[0]
+            where = f"the part that was computed is in {kept}, marked failed"
+            raise RuntimeError(f"{error}; {where}") from error
         data = described(result)
         written = saved(data)
         with telling_what_is_kept(lambda: f"kept: {', '.join(map(str, written))}"):

@@ -15,7 +15,6 @@ from scipy.interpolate import CubicSpline
 
 from analytic import spin_up_response
 from analytic.arrays import FloatArray
-from analytic.exact.continuum.rotation import lives_in_space
 from analytic.exact.linear.modes import driven_modes
 from analytic.input_checks import positive, whole_number
 
@@ -104,10 +103,10 @@ def refinement(
     off, apart = np.full(len(q), math.nan), np.full(len(modes), math.nan)
     if exact:
         theory = case.model.theory_of(case.blade)
+        true = driven_modes(case.blade, case.omega, len(modes), theory=theory)
         # Else flap, lag and torsion would have to be sorted.
-        if not case.model.leaves_plane or lives_in_space(case.blade):
-            true = driven_modes(case.blade, case.omega, len(modes), theory=theory).frequencies
-            apart = np.array([one.limit for one in modes]) * found[-1] / true - 1.0
+        if case.model.leaves_plane <= true.model.twists:
+            apart = np.array([one.limit for one in modes]) * found[-1] / true.frequencies - 1.0
         motion: Any = case.spin_up  # a change of the speed
         response = spin_up_response(
             case.blade, motion, time, tolerance=max(0.1 * tolerance, 1e-8),

@@ -192,9 +192,9 @@ def exact_orbits(blade: Blade, omega: float, amplitudes: tuple[float, ...]) -> x
         try:
             backbone = periodic_orbits(blade, omega, wanted)
         except AmplitudeNotReachedError as error:
-            if error.orbits is None:
+            if error.part is None:
                 raise
-            backbone = error.orbits
+            backbone = error.part
     found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
 
     def at_all(values: FloatArray) -> FloatArray:

@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike
 from analytic import Blade, SteadyRotation, linear_modes
 from analytic.arrays import FloatArray
 from analytic.blade_checks import require_planar, warn_if_rpm
-from analytic.exact.continuum.planar_rotation import stretched_state
+from analytic.exact.continuum.planar_kinematics import set_at
 from analytic.exact.continuum.rotation import require_bent
-from analytic.exact.continuum.state import BeamState, straight_state
+from analytic.exact.continuum.state import BladeState
+from analytic.exact.linear.steady_state import stretched_state
 from analytic.input_checks import points_of_beam
 from analytic.lazily import integrate, interpolate
 from analytic.loads import Load
@@ -36,6 +37,7 @@ from .rotating_beam import add_rotating_beam
 from .solver import Sensors, described, exudyn_system, solve
 from .units import Units
 
+_ROUND_OFF = 1e-13  # of a planar state's size, which its setting angle leaves
 _ALONG, _BETWEEN = 401, 8
 """Points of a mode's spline, and pieces of an element over which the kick is integrated."""
 
@@ -50,7 +52,7 @@ def simulate(
     step: float = 1e-3,
     frame: Frame = "inertial",
     loads: Sequence[Load] = (),
-    initial_state: Callable[[FloatArray], BeamState] | None = None,
+    initial_state: Callable[[FloatArray], BladeState] | None = None,
     stations: ArrayLike = (),
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
@@ -142,7 +144,7 @@ def simulate(
 def run_case(
     case: RunCase,
     *,
-    initial_state: Callable[[FloatArray], BeamState] | None = None,
+    initial_state: Callable[[FloatArray], BladeState] | None = None,
     stations: ArrayLike = (),
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
@@ -187,7 +189,7 @@ def _start(
     case: RunCase,
     units: Units,
     reference: FloatArray,
-    initial_state: Callable[[FloatArray], BeamState] | None,
+    initial_state: Callable[[FloatArray], BladeState] | None,
 ) -> tuple[FloatArray, FloatArray] | None:
     """Return coordinates and velocities in the frame of the clamp, unless it starts straight."""
     turning = getattr(case.spin_up, "start", 0.0)
@@ -200,14 +202,18 @@ def _start(
     mesh = Mesh(blade=case.blade, elements=case.elements, nodes_of_element=nodes)
     state = initial_state(mesh.places)
     if not case.model.leaves_plane:
-        for name in ("w", "w_slope", "w_dot", "w_slope_dot"):
-            if largest := float(np.max(np.abs(getattr(state, name)))):
+        state = state.seen_from(set_at(case.blade.setting_angle))
+        for name in ("place", "velocity", "slope", "slope_rate"):
+            apart = np.abs(getattr(state, name))
+            if (largest := float(apart[:, 2].max())) > _ROUND_OFF * apart.max():
                 raise ValueError(
-                    f"element {case.model.name!r} stays in the plane of rotation, out of which "
-                    f"initial_state moves the blade by {name} up to {largest:.3g}: take "
+                    f"element {case.model.name!r} stays in the plane of bending, out of which "
+                    f"the {name} of initial_state is up to {largest:.3g}: take "
                     "element='space_exact'"
                 )
-    return case.model.coordinates(mesh.positions / units.length, units.state(state))
+    state = units.state(state)
+    state = replace(state, place=state.place + case.blade.unit.hub * np.eye(3)[0])
+    return case.model.coordinates(state)
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
@@ -219,7 +225,7 @@ def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
             raise SimulationError(f"the solver gave up at its last step: {remedy(run, end)}")
     except SimulationError as error:
         run.attrs["verdict"] = str(error)
-        error.run = run
+        error.part = run
         raise error from cause
     omega, divergence_speed = run.attrs["omega"], run.attrs["divergence_speed"]
     if omega > divergence_speed:
@@ -235,10 +241,10 @@ def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:
 def kicked(
     blade: Blade,
     kick: float = 1e-6,
-    planar: Callable[[FloatArray], BeamState] | None = None,
+    planar: Callable[[FloatArray], BladeState] | None = None,
     *,
     by_mode: bool = False,
-) -> Callable[[FloatArray], BeamState]:
+) -> Callable[[FloatArray], BladeState]:
     """Return the `initial_state` for `simulate` of a blade that is bent out of its plane.
 
     By an arc, w = kick L (x/L)² of small ones, at rest: its tangents are turned out of the plane by
@@ -281,19 +287,18 @@ def kicked(
         mode = linear_modes(blade, 0.0, 1, only="flap").shapes(along)[2, :, 0].real
         slope = interpolate.CubicSpline(along, blade.length * mode).derivative()
 
-    def state(x: FloatArray) -> BeamState:
-        count = np.arange(_BETWEEN * (x.size - 1) + 1) / _BETWEEN
-        fine = np.interp(count, np.arange(x.size), x)
-        start, tilt = (planar or straight_state)(fine), kick * slope(fine)
-        # The change of the slopes (u', v', w') turns the tangent, and keeps its length.
-        tangent = np.stack((1.0 + start.u_slope, start.v_slope))
-        slopes = np.vstack((tangent * (np.cos(tilt) - 1.0), np.hypot(*tangent) * np.sin(tilt)))
-        u, v, w = integrate.cumulative_simpson(slopes, x=fine, initial=0.0)
-        bent = replace(
-            start, u=start.u + u, v=start.v + v, w=w, u_slope=start.u_slope + slopes[0],
-            v_slope=start.v_slope + slopes[1], w_slope=slopes[2],
-        )  # fmt: skip
-        whole = {name: np.broadcast_to(a, fine.shape) for name, a in vars(bent).items()}
-        return BeamState(**{name: a[::_BETWEEN] for name, a in whole.items()})
+    def state(x: FloatArray) -> BladeState:
+        fine = np.linspace(0.0, blade.length, _BETWEEN * (x.size - 1) + 1)
+        start = (planar or partial(stretched_state, blade, 0.0))(fine)
+        tilt = kick * slope(fine)[:, None]
+        c, s, normal = np.cos(tilt), np.sin(tilt), start.section[:, :, 2]
+        # The change of the slope turns the tangent, and keeps its length.
+        length = np.linalg.norm(start.slope, axis=1, keepdims=True)
+        bent = c * start.slope + s * length * normal
+        moved = integrate.cumulative_simpson(bent - start.slope, x=fine, initial=0.0, axis=0)
+        first, second = start.section[:, :, 0], start.section[:, :, 1]
+        section = np.stack((c * first + s * normal, second, c * normal - s * first), axis=2)
+        whole = replace(start, place=start.place + moved, slope=bent, section=section)
+        return BladeState(**{name: part[::_BETWEEN] for name, part in vars(whole).items()})
 
     return state

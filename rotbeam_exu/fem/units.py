@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import cast
 
 from analytic import Blade
-from analytic.exact.continuum.state import BeamState
+from analytic.exact.continuum.state import BladeState
 from analytic.loads import Load
 from analytic.motion import Rotation
 
@@ -57,15 +57,12 @@ class Units:
         """Return the rotation over time in these units."""
         return restated(rotation, unit=self.time)
 
-    def state(self, state: BeamState) -> BeamState:
-        """Return the state in these units; slopes and angles have none."""
-        units = dict.fromkeys("uvw", self.length)
-        for field in fields(state):
-            if field.name.endswith("_dot"):
-                units[field.name] = units.get(field.name.removesuffix("_dot"), 1.0) / self.time
+    def state(self, state: BladeState) -> BladeState:
+        """Return the state in these units; slopes and sections have none."""
         return replace(
-            state, **{name: value / units.get(name, 1.0) for name, value in vars(state).items()}
-        )
+            state, place=state.place / self.length, velocity=state.velocity / self.velocity,
+            slope_rate=self.time * state.slope_rate, spin=self.time * state.spin,
+        )  # fmt: skip
 
 
 def restated(rotation: Rotation, unit: float = 1.0, azimuth: float = 0.0) -> Rotation:

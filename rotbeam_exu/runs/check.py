@@ -11,7 +11,7 @@ from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.blade_checks import require_steady_state
 from analytic.exact.linear.modes import driven_modes
-from analytic.warning import warn
+from analytic.warning import PartialError, warn
 
 from ..lazily import xr
 from .attributes import beam_of
@@ -44,16 +44,11 @@ _RESOLVED = 0.06
 """Phase of a step [rad], a hundredth of a cycle, below which a smaller one is no remedy."""
 
 
-class SimulationError(RuntimeError):
+class SimulationError(PartialError):
     """A run that the solver finished, or gave up, and that does not pass its checks.
 
-    Attributes
-    ----------
-    run : Dataset or None
-        The computed run if the solver finished: to look at, not to use.
+    Its `part` is the Dataset of the run if the solver finished: to look at, not to use.
     """
-
-    run: xr.Dataset | None = None
 
 
 def checked_steps(

@@ -17,8 +17,9 @@ import numpy as np
 
 from analytic import Blade, SteadyRotation, linear_modes, periodic_orbits
 from analytic.arrays import FloatArray
-from analytic.exact.continuum.state import BeamState, kicked_state
+from analytic.exact.continuum.state import BladeState
 from analytic.exact.linear.modes import driven_modes
+from analytic.exact.linear.steady_state import kicked_state
 from analytic.loads import Load
 from analytic.motion import SpeedChange
 from analytic.theory import BERNOULLI_EULER, Theory
@@ -186,10 +187,10 @@ class Case:
         return periodic_orbits(self.blade, self.motion.omega, self.amplitudes)
 
     @property
-    def start(self) -> Callable[[FloatArray], BeamState] | None:
+    def start(self) -> Callable[[FloatArray], BladeState] | None:
         """State at material points x [m] at t = 0; None of a beam that starts straight, at rest."""
         if self.kick:
-            return partial(kicked_state, self.blade.length, self.kick)
+            return partial(kicked_state, self.blade, self.kick)
         return None if self.is_spun_up else partial(self.orbit.state, 0)
 
     def whole_duration(self, step: float) -> float:

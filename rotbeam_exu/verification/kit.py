@@ -123,10 +123,10 @@ def start_table(case: Case, places: ArrayLike) -> str:
     """
     orbit, x = case.orbit, finite_array("places", places)
     state = orbit.state(0, x)
-    slope = 1.0 + state.u_slope + 1j * state.v_slope
-    slope_dot = state.u_slope_dot + 1j * state.v_slope_dot
-    positions = {"x": x, "X": x + state.u, "Y": state.v, "angle": np.angle(slope)}
-    rates = {"X_dot": state.u_dot, "Y_dot": state.v_dot, "angle_dot": (slope_dot / slope).imag}
+    slope, slope_dot = ((of[:, :2] @ [1.0, 1.0j]) for of in (state.slope, state.slope_rate))
+    (X, Y), (X_dot, Y_dot) = state.place.T[:2], state.velocity.T[:2]
+    positions = {"x": x, "X": X, "Y": Y, "angle": np.angle(slope)}
+    rates = {"X_dot": X_dot, "Y_dot": Y_dot, "angle_dot": (slope_dot / slope).imag}
     slopes = {"X_slope": slope.real, "Y_slope": slope.imag}
     slope_rates = {"X_slope_dot": slope_dot.real, "Y_slope_dot": slope_dot.imag}
     said = (

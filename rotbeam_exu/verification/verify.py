@@ -52,7 +52,7 @@ class Code(Protocol):
 
         The blade, `case.blade`, starts straight and at rest and turns by `case.rotation` under
         `case.loads`; where not `case.is_spun_up` it starts on `case.orbit`, whose ``state(0, x)``
-        is the `BeamState` at material points x [m]. Samples are even, at least 100 a period, and
+        is the `BladeState` at material points x [m]. Samples are even, at least 100 a period, and
         go from 0 to `case.duration` or a little beyond. With `case.kick` it starts in the state
         `case.start(x)`, straight, but in motion out of the plane.
 

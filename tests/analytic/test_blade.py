@@ -176,7 +176,7 @@ def test_energy_norm_of_the_coordinates_is_the_elastic_energy():
 
 @pytest.mark.parametrize("shear", [None, 0.3])
 def test_rates_and_gradients_of_a_shape_are_those_of_differences(shear):
-    """Tip, slope and shear angle; the curvature and e' are derivatives to x."""
+    """Tip, slope and section; the curvature and e' are derivatives to x."""
     model = continuum(1e-2, 6, 5, UNIFORM, shear)
     q, q_dot = 0.3 * np.random.default_rng(4).normal(size=(2, 3, model.size))
     x, h = np.array([0.2, 0.7]), 1e-6
@@ -185,17 +185,22 @@ def test_rates_and_gradients_of_a_shape_are_those_of_differences(shear):
         return (of(q + h * q_dot) - of(q - h * q_dot)) / (2.0 * h)
 
     assert model.tip_rate(q, q_dot) == pytest.approx(rate(model.tip), abs=1e-8)
-    gradient = np.sum(model.tip_gradient(q) * q_dot, axis=1)
+    gradient = np.sum(model.tip_gradient(q) * q_dot[:, None], axis=2)
     assert gradient == pytest.approx(rate(model.tip), abs=1e-8)
     slope = rate(lambda at: model.slope(at, x))
     assert model.slope_rate(q, q_dot, x) == pytest.approx(slope, abs=1e-8)
-    sheared = rate(lambda at: model.shear_angle(at, q_dot, x)[0])
-    assert model.shear_angle(q, q_dot, x)[1] == pytest.approx(sheared, abs=1e-8)
+
+    def angle(at, x):
+        section = model.standing(at, x, 0.0)[1]
+        return np.arctan2(section[..., 1, 0], section[..., 0, 0])
+
+    turns = [model.moved(*pair, x, 0.0)[1][2, :, 0] for pair in zip(q, q_dot[:, None], strict=True)]
+    assert np.real(turns) == pytest.approx(rate(lambda at: angle(at, x)), abs=1e-8)
     curvature, extension, change = (one[0] for one in model.bent(q[:1]))
-    slopes = [model.slope(q[:1], model.points + step)[0] for step in (h, 0.0, -h)]
-    shears = [model.shear_angle(q[:1], q_dot[:1], model.points + s)[0][0] for s in (h, 0.0, -h)]
-    angles = np.array([np.angle(z) - s for z, s in zip(slopes, shears, strict=True)])
-    stretches = np.array([np.abs(z) * np.cos(s) for z, s in zip(slopes, shears, strict=True)])
+    places = [model.points + step for step in (h, 0.0, -h)]
+    slopes = np.array([model.slope(q[:1], at)[0] for at in places])
+    angles = np.array([angle(q[:1], at)[0] for at in places])
+    stretches = (slopes * np.exp(-1j * angles)).real
     assert curvature == pytest.approx((angles[0] - angles[2]) / (2.0 * h), abs=1e-6)
     assert extension == pytest.approx(stretches[1] - 1.0, abs=1e-12)
     assert change == pytest.approx((stretches[0] - stretches[2]) / (2.0 * h), abs=1e-6)

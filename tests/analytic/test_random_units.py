@@ -48,8 +48,8 @@ def test_modes_and_orbits_in_any_units(slenderness, rate, meter, kilogram, secon
     ratio = orbit.frequency / orbit.omega_n
     assert same.frequency / same.omega_n == pytest.approx(ratio, rel=1e-10)
     assert same.lambda_omega == pytest.approx(orbit.lambda_omega, abs=1e-7)
-    here = orbit.state(0, x, 0.3).v
-    assert same.state(0, x * units[0], 0.3).v / units[0] == pytest.approx(here, abs=1e-9)
+    here = orbit.state(0, x, 0.3).place[:, 1]
+    assert same.state(0, x * units[0], 0.3).place[:, 1] / units[0] == pytest.approx(here, abs=1e-9)
 
 
 @settings(max_examples=4, deadline=None)

@@ -116,7 +116,7 @@ def test_functions_and_modes(beam):
 
 
 def test_unsettled_frequencies(monkeypatch):
-    monkeypatch.setattr("analytic.exact.linear.modes.MOST_FUNCTIONS", 60)
+    monkeypatch.setattr("analytic.exact.continuum.planar.Continuum.most_functions", 60)
     beam = unit_beam(1e-12)
     options = {"count": 1, "theory": Theory(extension=False), "functions": 40}
     assert complaint(linear_modes, beam, 2e3, **options).endswith("rotate slower")
@@ -127,7 +127,7 @@ def test_amplitude_not_reached(beam, monkeypatch):
     monkeypatch.setattr("analytic.exact.free.path.THOROUGH", Care(harmonics=12))
     with pytest.raises(AmplitudeNotReachedError, match="; ask for smaller amplitudes$") as caught:
         periodic_orbits(beam, 6.0, [0.1, 0.6])
-    assert caught.value.orbits.amplitude.tolist() == [0.1]
+    assert caught.value.part.amplitude.tolist() == [0.1]
     reached = float(re.search(r"last amplitude reached is ([0-9.]+)", str(caught.value))[1])
     assert complaint(periodic_orbits, beam, 6.0, [0.99 * reached]) == ""
 

@@ -152,5 +152,5 @@ def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatc
     code, _, error = call("respond", *RIPPLE, *QUICK, "--out", tmp_path)
     assert code == 1
     kept = tmp_path / "response-omega-6-ripple-0.002-from-3.7-to-3.76-failed.nc"
-    assert f"after 3.7 rad/s; the part that was found is in {kept}, marked failed" in error
+    assert f"after 3.7 rad/s; the part that was computed is in {kept}, marked failed" in error
     assert load(kept).attrs["verdict"] == "failed: the response was not found after 3.7 rad/s"

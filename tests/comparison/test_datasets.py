@@ -83,7 +83,7 @@ IN_SPACE = {
 }
 _LONG = IN_SPACE["ForcedResponse"], MADE["LeavingBranch"]
 NO_RESULTS = {"Backbone", "FourierRamp", "ReducedModel", "FloatArray", "float | FloatArray", "Any"}
-NO_RESULTS |= {"Path", "Callable[[FloatArray], BeamState]", "xr.Dataset"}
+NO_RESULTS |= {"Path", "Callable[[FloatArray], BladeState]", "xr.Dataset"}
 
 
 def test_no_result_of_a_public_function_is_without():

@@ -43,7 +43,7 @@ BEYOND = {
     "analytic.exact.free.internal_resonance", "analytic.exact.free.leaving",
     "analytic.exact.free.orbits", "analytic.exact.linear.campbell",
     "analytic.exact.linear.modes", "analytic.exact.stability.growth",
-    "analytic.exact.free.stability_limit", "analytic.exact.linear.space_modes",
+    "analytic.exact.free.stability_limit", "analytic.exact.linear.families",
     "analytic.reduced.linear_frame", "analytic.reduced.model", "analytic.reduced.model_range",
     "analytic.section", "analytic.spin_up.quiet",
     "rotbeam_exu.fem", "rotbeam_exu.fem.elements", "rotbeam_exu.fem.linearization",

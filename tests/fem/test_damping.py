@@ -25,8 +25,7 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from analytic.exact.continuum.planar_rotation import stretched_state
-from analytic.exact.continuum.state import BeamState
+from analytic.exact.linear.steady_state import stretched_state
 from analytic.theory import Theory
 from rotbeam_exu import kicked, simulate
 from rotbeam_exu.fem.elements import Ancf3, Cable, Exact, SpaceCable, SpaceExact
@@ -147,10 +146,11 @@ def test_an_axial_vibration_decays_by_the_axial_damping(beam, element):
     wave = 0.5 * np.pi / length
 
     def stretched(x):
-        u, slope, zero = 1e-4 * np.sin(wave * x), 1e-4 * wave * np.cos(wave * x), 0.0 * x
-        return BeamState(
-            u=u, v=zero, u_slope=slope, v_slope=zero, u_dot=zero, v_dot=zero, u_slope_dot=zero,
-            v_slope_dot=zero,
+        rest, along = stretched_state(beam, 0.0, x), np.eye(3)[0]
+        u, slope = 1e-4 * np.sin(wave * x), 1e-4 * wave * np.cos(wave * x)
+        return replace(
+            rest, place=rest.place + np.multiply.outer(u, along),
+            slope=rest.slope + np.multiply.outer(slope, along),
         )  # fmt: skip
 
     # A load of no size, for samples as dense as its frequency wants them.

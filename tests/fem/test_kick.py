@@ -27,18 +27,17 @@ def test_the_kick_bends_and_does_not_stretch():
     orbit = periodic_orbits(ALIKE, 2.0, [0.3])
     for planar in (None, lambda at: orbit.state(0, at, phase=0.7)):
         flat, bent = (kicked(ALIKE, kick, planar)(x) for kick in (0.0, 1e-2))
-        lengths = [np.hypot(np.hypot(1.0 + s.u_slope, s.v_slope), s.w_slope) for s in (flat, bent)]
+        lengths = [np.linalg.norm(s.slope, axis=1) for s in (flat, bent)]
         np.testing.assert_allclose(*lengths, rtol=1e-14)
         # Places belong to the slopes: their differences are those of a blade that was turned.
         fine = np.linspace(0.0, ALIKE.length, 401)
         many = kicked(ALIKE, 1e-2, planar)(fine)
-        for place, slope in (("u", "u_slope"), ("v", "v_slope"), ("w", "w_slope")):
-            by_differences = np.gradient(getattr(many, place), fine)[1:-1]
-            # Differences over 0.02 m err by h²/6 of the third derivative, 1e-4 of the second mode.
-            np.testing.assert_allclose(getattr(many, slope)[1:-1], by_differences, atol=2e-6)
-            np.testing.assert_allclose(getattr(many, place)[::100], getattr(bent, place), atol=1e-9)
+        # Differences over 0.02 m err by h²/6 of the third derivative, 1e-4 of the second mode.
+        by_differences = np.gradient(many.place, fine, axis=0)[1:-1]
+        np.testing.assert_allclose(many.slope[1:-1], by_differences, atol=2e-6)
+        np.testing.assert_allclose(many.place[::100], bent.place, atol=1e-9)
     straight = kicked(ALIKE, 1e-2)(x)
-    np.testing.assert_allclose(straight.w, 400.0 * (1.0 - np.cos(2.5e-3 * x)), rtol=1e-9)
+    np.testing.assert_allclose(straight.place[:, 2], 400.0 * (1.0 - np.cos(2.5e-3 * x)), rtol=1e-9)
 
 
 def first_mode(x):
@@ -61,11 +60,10 @@ def test_both_codes_start_in_the_first_flap_mode(bending_ratio):
     for kick, digits in ((1e-6, 1e-7), (1e-2, 1e-4)):
         found = spin_up_response(blade, motion, [0.0, 0.1], tolerance=1e-6, points=x, bent=kick)
         start = kicked(blade, kick, by_mode=True)(x)
-        places = np.stack((x + start.u, start.v, start.w), axis=-1)
-        np.testing.assert_allclose(found.axis[0], places, rtol=close, atol=1e-15)
+        np.testing.assert_allclose(found.axis[0], start.place, rtol=close, atol=1e-15)
         # Turned tangents have the mode's deflections but for the square of the kick.
         mode = kick * blade.length * first_mode(x / blade.length)
-        np.testing.assert_allclose(start.w, mode, rtol=digits, atol=1e-15)
+        np.testing.assert_allclose(start.place[:, 2], mode, rtol=digits, atol=1e-15)
 
 
 def test_a_kicked_tube_swings_as_exudyn_has_it():

@@ -55,7 +55,7 @@ def test_divergent_above(beam, spin_up):
     options = {"elements": 4, "duration": 6.5, "step": 2e-3, "frame": "rotating"}
     with pytest.raises(SimulationError, match=sentence) as failed:
         simulate(beam, spin_up, element="linear", **options)
-    run = failed.value.run
+    run = failed.value.part
     assert run.attrs["verdict"] == str(failed.value)
     late = run["q"].sel(time=slice(4.5, 6.5))
     slope = np.polyfit(late["time"], np.log(np.abs(late)), 1)[0]

@@ -109,7 +109,7 @@ def settling(blade, response, i, nu, cycles, steps, elements):
 
     def disturbed(x):
         state = response.state(i, x)
-        rates = ("u_dot", "v_dot", "u_slope_dot", "v_slope_dot")
+        rates = ("velocity", "slope_rate", "spin")
         return replace(state, **{name: 1.03 * getattr(state, name) for name in rates})
 
     period = 2.0 * np.pi / nu

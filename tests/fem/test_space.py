@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.spatial.transform import Rotation
 
 from analytic import (
     Beam,
@@ -13,7 +14,7 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from analytic.exact.continuum.state import BeamState
+from analytic.exact.continuum.state import BladeState
 from rotbeam_exu import kicked, natural_frequencies, simulate
 from rotbeam_exu.fem.columns import twist
 from rotbeam_exu.fem.elements import SpaceExact
@@ -26,23 +27,24 @@ TUBE = Beam.reference().with_shape(Tube(radius=0.015, wall=0.00077))
 
 
 def test_rates_of_a_state_are_those_of_its_coordinates():
-    x, rng = np.linspace(0.0, 1.0, 4), np.random.default_rng(5)
-    names = ("u", "v", "w", "u_slope", "v_slope", "w_slope")
-    values, rates = 0.2 * rng.standard_normal((2, 6, 4))
+    rng = np.random.default_rng(5)
+    place, velocity, spin = rng.standard_normal((3, 4, 3))
+    first = Rotation.random(4, random_state=6)
+
+    def at(t):
+        section = (Rotation.from_rotvec(t * spin) * first).as_matrix()
+        return BladeState(
+            place=place + t * velocity, velocity=velocity, slope=section[:, :, 0],
+            slope_rate=np.cross(spin, section[:, :, 0]), section=section, spin=spin,
+        )  # fmt: skip
 
     def coordinates(t):
-        moved = dict(zip(names, values + t * rates, strict=True))
-        moving = {f"{name}_dot": rate for name, rate in zip(names, rates, strict=True)}
-        return FrameNodes().coordinates(x, BeamState(**moved, **moving))
+        return FrameNodes().coordinates(at(t))
 
     _, rate = coordinates(0.0)
     difference = (coordinates(1e-6)[0] - coordinates(-1e-6)[0]) / 2e-6
     np.testing.assert_allclose(rate, difference, atol=1e-9)
-    # The section's first axis is the tangent.
-    p = coordinates(0.0)[0][:, 3:]
-    tangent = np.stack((1.0 + values[3], values[4], values[5]), axis=1)
-    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
-    np.testing.assert_allclose(directors(p)[..., 0], tangent, atol=1e-14)
+    np.testing.assert_allclose(directors(coordinates(0.0)[0][:, 3:]), at(0.0).section, atol=1e-14)
 
 
 def test_twist_is_the_angle_about_the_tangent():

@@ -19,7 +19,7 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
-from analytic.exact.continuum.state import kicked_state
+from analytic.exact.linear.steady_state import kicked_state
 from rotbeam_exu import dataset_of, natural_frequencies, simulate
 from rotbeam_exu.fem.elements import SpaceExact
 from rotbeam_exu.fem.linearization import Linearization
@@ -131,7 +131,7 @@ def test_a_kicked_tube_starts_straight_with_the_kick():
     motion = SpinUp(omega=2.0, ramp_time=1.0)
     run = simulate(
         TUBE, motion, element="space_exact", elements=16, duration=1.1, step=0.02,
-        initial_state=partial(kicked_state, TUBE.length, 2.0),
+        initial_state=partial(kicked_state, TUBE, 2.0),
     )  # fmt: skip
     assert run.w[0].item() == 0.0
     assert run.w_dot[0].item() == pytest.approx(2.0, rel=1e-9)

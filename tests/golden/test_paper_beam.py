@@ -68,7 +68,7 @@ def orbits(beam):
             "frequency": found.frequency.tolist(),
             "harmonics": found.harmonics[:, :4].tolist(),
             "peak_time": found.peak_time.tolist(),
-            "state": found.state(1, [4.0], phase=1.0).v.tolist(),
+            "state": found.state(1, [4.0], phase=1.0).place[:, 1].tolist(),
         }
     return result
 

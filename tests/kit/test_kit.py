@@ -106,10 +106,11 @@ def test_a_start_is_the_orbit_with_its_slopes_and_rates(folder):
         # A little later, by the orbit itself: central differences over 2e-4 of a period.
         at = [orbit.state(0, start["x"], phase) for phase in (-1e-4, 1e-4)]
         span = 2e-4 / orbit.frequency[0]
-        angles = [np.arctan2(one.v_slope, 1.0 + one.u_slope) for one in at]
+        slopes, angles = [one.slope for one in at], [np.arctan2(*one.slope.T[1::-1]) for one in at]
         for name, (before, after) in {
-            "X_dot": [one.u for one in at], "Y_dot": [one.v for one in at], "angle_dot": angles,
-            "X_slope_dot": [one.u_slope for one in at], "Y_slope_dot": [one.v_slope for one in at],
+            "X_dot": [one.place[:, 0] for one in at], "Y_dot": [one.place[:, 1] for one in at],
+            "angle_dot": angles, "X_slope_dot": [one[:, 0] for one in slopes],
+            "Y_slope_dot": [one[:, 1] for one in slopes],
         }.items():  # fmt: skip
             assert start[name] == pytest.approx((after - before) / span, abs=1e-6)
     fine = columns(folder / "start_O_64.csv")

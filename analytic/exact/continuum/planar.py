@@ -26,15 +26,23 @@ acceleration; the viscosity of the blade, η_b and η_a, is a diagonal; shear ha
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray, evaluated
+from ...blade import Blade
+from ...blade_checks import require_out_of_plane
 from ...methods.system import Tangent
+from ...theory import Theory
 from ...unit_blade import UNIFORM, UnitBlade
 from .planar_kinematics import Kinematics
 from .state import Driven
+
+MOST_FUNCTIONS = 256
+"""For θ; beyond, the eigenproblem takes seconds."""
 
 
 class _Fields(NamedTuple):
@@ -58,8 +66,17 @@ class Continuum(Kinematics):
     slenderness is zero.
     """
 
-    in_space: ClassVar[bool] = False
+    gauges: ClassVar[tuple[str, ...]] = ("lag",)
+    softening_orbits: ClassVar[int] = 2
+    """Number of small orbits from which λ_ω is extrapolated."""
+    most_functions: ClassVar[int] = MOST_FUNCTIONS
+    tolerance: ClassVar[float] = 1e-9
+    """Relative change of the frequencies from one basis to the next, far above noise."""
+    tail: ClassVar[float] = 1.0
     trapeze: ClassVar[bool] = False
+    twists: ClassVar[bool] = False
+    stiff: ClassVar[bool] = False
+    uncoupled: ClassVar[bool] = True
     has_dear_tangent: ClassVar[bool] = False
     """Whether one costs many residuals, so that it serves in the steps of time after it."""
 
@@ -211,6 +228,14 @@ class Continuum(Kinematics):
         """Cos ψ, by which loads in the plane of rotation act across the blade."""
         return self.blade.setting
 
+    def skews(self, rate: float) -> bool:
+        """Whether Coriolis forces tell the two sides of a swing, so that it has even harmonics."""
+        return abs(rate * self.blade.setting) > 1e-9
+
+    def family(self, gauge: str) -> str:
+        """Return the family of modes that move the tip: set steeply, lag becomes flap."""
+        return gauge if self.blade.setting**2 > 0.5 else "flap"
+
     def push(
         self, force: ComplexArray, acts_on: str, lift: FloatArray | float = 0.0
     ) -> ComplexArray:
@@ -297,20 +322,51 @@ class Continuum(Kinematics):
         squared: FloatArray = np.sum((slope.conj() * (slope @ self._green)).real, axis=-1)
         return squared
 
-    def steady_state(self, rate: float) -> FloatArray:
-        """Return the coordinates (n,) of the straight beam stretched by the rotation.
+    @property
+    def extends(self) -> bool:
+        """Whether tension stretches the axis."""
+        return self.slenderness > 0.0
 
-        Exactly, 1 + e = cos(kx)/cos(k) with k = w√μ, as long as k < π/2.
-        """
-        at_rest = np.zeros((1, self.size))
-        tangent = self.tangent(at_rest, at_rest, at_rest, Driven(rate))
-        q = np.zeros(self.size)
-        # Without bending the equations are linear in e, and nothing shears.
-        q[self.bending :] = -np.linalg.solve(
-            tangent.stiffness[0, self.bending :, self.bending :],
-            tangent.residual[0, self.bending :],
+    @property
+    def resolved(self) -> int:
+        """Number of modes that the functions resolve."""
+        return self.bending // 2
+
+    @property
+    def blocks(self) -> list[NDArray[np.bool_]]:
+        """Coordinates that go without the others about the straight blade: all of them."""
+        return [np.ones(self.size, dtype=bool)]
+
+    def beyond(self, blade: Blade, theory: Theory) -> str | None:
+        """Return why nothing is known of the motion out of the plane, "" if it is."""
+        try:
+            require_out_of_plane(blade, theory)
+        except ValueError as unknown:
+            return str(unknown)
+        return ""
+
+    def reversal(self, component: int, mirror: bool) -> NDArray[np.bool_]:
+        """Return those of θ and γ: (θ, e, γ)(t) → (-θ, e, -γ)(-t) maps motion onto motion."""
+        del component, mirror
+        return self.odd
+
+    def refined(self) -> Continuum:
+        """Return the discretization with half as many functions again, the same each time."""
+        panels = self.blade.panel_count
+
+        def more(count: int) -> int:
+            a_panel = count // panels
+            # One more at least, on every panel: the same functions would confirm themselves.
+            return panels * (a_panel + max(a_panel // 2, 1))
+
+        axial = more(self.axial) if self.extends else self.axial
+        return continuum(
+            self.slenderness, more(self.bending), axial, self.blade, self.shear_ratio, self.engesser
         )
-        return q
+
+
+continuum = lru_cache(maxsize=32)(Continuum)
+"""The discretization, built once for each set of arguments."""
 
 
 def _onto(rows: FloatArray, matrix: FloatArray) -> FloatArray:

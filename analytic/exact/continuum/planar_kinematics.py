@@ -104,15 +104,6 @@ class Kinematics:
         turning = 1j * (1.0 + strains @ psi.T) * (theta_dot @ phi.T)
         return turn * (turning + strain_rates @ psi.T)
 
-    def shear_angle(
-        self, q: FloatArray, q_dot: FloatArray, x: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return the angle at `x` from the section's normal to the tangent, and its rate."""
-        _, psi = self._bases(x)
-        (_, strains), (_, strain_rates) = self.split(q), self.split(q_dot)
-        stretch = 1.0 + strains @ psi.T
-        return np.angle(stretch), np.asarray((strain_rates @ psi.T / stretch).imag)
-
     def _at(self, x: FloatArray | None) -> tuple[FloatArray, FloatArray | ComplexArray]:
         return (self._phi, self._psi) if x is None else self._bases(x)
 
@@ -132,7 +123,7 @@ class Kinematics:
     def places(self, q: FloatArray, x: FloatArray) -> FloatArray:
         """Return the places of material points `x`, (samples, points, 3), as `standing` does."""
         z = self.integrated(self.slope(q), x)
-        return np.asarray(np.stack((z.real, z.imag), axis=-1) @ set_at(self.blade.angle)[:, :2].T)
+        return np.asarray(parts_of(z) @ set_at(self.blade.angle)[:, :2].T)
 
     def standing(self, q: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return places (samples, points, 3) and sections (samples, points, 3, 3) of points `x`.
@@ -142,36 +133,46 @@ class Kinematics:
         angle = self.split(q)[0] @ self._bases(x)[0].T
         return self.places(q, x), in_plane_of_bending(angle, self.blade.angle)
 
-    def deflection(self, q: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the tip's deflection in the plane of bending, and its rate, (samples,) each."""
-        return self.tip(q).imag, self.tip_rate(q, q_dot).imag
+    def slopes(
+        self, q: FloatArray, q_dot: FloatArray, x: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the derivatives of places to `x`, (samples, points, 3), and their rates."""
+        axes = set_at(self.blade.angle)[:, :2].T
+        slope, rate = (parts_of(z) @ axes for z in (self.slope(q, x), self.slope_rate(q, q_dot, x)))
+        return slope, rate
 
     def moved(
         self, q: FloatArray, shapes: ComplexArray, x: FloatArray
     ) -> tuple[ComplexArray, ComplexArray]:
-        """Return how small changes (count, n) move points, (3, points, count), and twist them."""
+        """Return how small changes (count, n) move and turn points, (3, points, count) each."""
         parts = [self.integrated(self.slope_rate(q, one), x) for one in (shapes.real, shapes.imag)]
         plane = np.array([[z.real, z.imag] for z in np.swapaxes(parts, 1, 2)])
-        moved = np.tensordot(set_at(self.blade.angle)[:, :2], plane[0] + 1j * plane[1], 1)
-        return moved, np.zeros_like(moved[0])
+        axes, turn = set_at(self.blade.angle), self._bases(x)[0] @ shapes[..., : self.bending].T
+        moved = np.tensordot(axes[:, :2], plane[0] + 1j * plane[1], 1)
+        return moved, np.multiply.outer(axes[:, 2], turn)
 
-    def tip(self, q: FloatArray) -> ComplexArray:
-        """Return the tip's position z(1), (samples,)."""
-        return self.slope(q) @ self.weights
+    def tip(self, q: FloatArray) -> FloatArray:
+        """Return the tip's place in the plane of bending, along and across, (samples, 2)."""
+        return parts_of(self.slope(q) @ self.weights)
 
     def tip_turn(self, q: FloatArray) -> FloatArray:
         """Return zero, (samples,): in its plane a beam does not twist."""
         return np.zeros(len(q))
 
-    def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> ComplexArray:
-        """Return the tip's velocity ż(1) in the rotating frame, (samples,)."""
-        return self.slope_rate(q, q_dot) @ self.weights
+    def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the tip's velocity in the rotating frame, (samples, 2)."""
+        return parts_of(self.slope_rate(q, q_dot) @ self.weights)
 
-    def tip_gradient(self, q: FloatArray) -> ComplexArray:
-        """Return the derivatives of the tip's position to the coordinates, (samples, n)."""
+    def tip_gradient(self, q: FloatArray) -> FloatArray:
+        """Return the derivatives of the tip's place to the coordinates, (samples, 2, n)."""
         turn = np.exp(1j * self._angle(q)) * self.weights
         turning = 1j * (1.0 + self._strain(q)) * turn
-        return np.concatenate((turning @ self._phi, turn @ self._psi), axis=-1)
+        return parts_of(np.hstack((turning @ self._phi, turn @ self._psi))).swapaxes(1, 2)
+
+
+def parts_of(z: ComplexArray) -> FloatArray:
+    """Return real and imaginary part along one more axis, the last."""
+    return np.ascontiguousarray(z).view(np.float64).reshape(*z.shape, 2)
 
 
 def in_plane_of_bending(angle: FloatArray, setting: float) -> FloatArray:

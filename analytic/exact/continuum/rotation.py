@@ -1,4 +1,4 @@
-"""The blade in space in steady rotation: its steady state, followed in the speed from rest."""
+"""The blade in steady rotation: its steady state, followed from rest, and its modes."""
 
 from __future__ import annotations
 
@@ -6,34 +6,38 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import FloatArray
+from ...arrays import ComplexArray, FloatArray
 from ...blade import Blade
 from ...blade_checks import require_blade, require_steady_state
 from ...input_checks import finite_number
 from ...loads import Load
-from ...methods.system import Tangent
+from ...methods.orbit import Orbit
+from ...methods.system import Tangent, reciprocal_modes
 from ...settled import refined
-from ...theory import BERNOULLI_EULER, Theory, require_theory
+from ...theory import Theory, require_theory
 from .basis import StrainFunctions
-from .planar_rotation import AtConstantRate, require_shear, steady_rotation
+from .planar import Continuum
+from .planar_rotation import on_more, require_shear, resolved_model
 from .space import SpaceContinuum
 from .state import Driven
 from .unit import space_unit
 
 FUNCTIONS = 12
 """Functions for each curvature of bending, at least, on a blade without point masses."""
-MOST_FUNCTIONS = 80
-"""Functions for each curvature of bending, at most."""
+GAUGES = {"lag": 1, "flap": 2}
+"""Components of the tip's place whose peak may be called the amplitude."""
+Model = Continuum | SpaceContinuum
 _SHORTEST = 1e-4  # step of speed and load, over what of them is reached
 _LARGEST_KICK = 0.1
 _STEPS = 60  # of speed and load
 _CHANGES, _EXACT = 12, 1e-12  # of Newton's method, and the last over the size of the state
 _CONTRACTION = 0.25
+_MASSLESS = 1e-12  # 1/Ω of what has no inertia
 
 
 def space_continuum(blade: Blade, theory: Theory, functions: int) -> SpaceContinuum:
@@ -65,12 +69,28 @@ def leaves_plane(blade: Blade) -> bool:
     return not blade.is_planar or (blade.unit.angle != 0.0 and blade.section.knows_space)
 
 
-def lives_in_space(
-    blade: Blade, theory: Theory = BERNOULLI_EULER, loads: Sequence[Load] = ()
-) -> bool:
-    """Whether a blade under loads is computed in space: also for all that its section tells."""
+def continuum_of(
+    blade: Blade,
+    theory: Theory,
+    functions: int,
+    for_each: int,
+    *,
+    mode: int = 1,
+    axial: int | None = None,
+    loads: Sequence[Load] = (),
+    leaves: bool = False,
+) -> Model:
+    """Return the discretization: of the plane of bending, the quick way, where nothing leaves it.
+
+    There `functions` are those for the tangent's angle, which resolve the `mode`, elsewhere
+    `for_each` those for each curvature. A setting angle mixes flap, lag and torsion where the
+    stiffness out of the plane and in torsion is known.
+    """
+    require_blade(blade)
     lifted = any(load.leaves_plane for load in loads)
-    return leaves_plane(blade) or lifted or blade.section.needs_space(require_theory(theory))
+    if leaves_plane(blade) or leaves or lifted or blade.section.needs_space(require_theory(theory)):
+        return space_continuum(blade, theory, for_each)
+    return resolved_model(blade, mode, theory, functions, axial)
 
 
 def require_bent(name: str, bent: float) -> float:
@@ -95,57 +115,114 @@ def require_section(blade: Blade) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class SpaceBlade(AtConstantRate):
+class SteadyBlade:
     """The blade in a frame that turns at a constant rate; a system of `methods`.
 
-    The gauge is the tip's place from the steady state along a direction in the root frame. With
-    `mirror` orbits are sought that the mirror maps onto themselves in reversed time, where the half
-    turn would as well.
+    The gauge is a component of the tip's place, from the steady state on: lag, or flap in space; in
+    the plane of bending across the blade. The invariant is the Jacobi integral. With `mirror`
+    orbits are sought that the mirror maps onto themselves in reversed time, where the half turn
+    would as well.
     """
 
-    model: SpaceContinuum
+    model: Any  # a `Model`
     rate: float  # w̄ = ω/√(EI3/mL³)
-    direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
+    component: int = GAUGES["lag"]
     near: FloatArray | None = None  # from where the steady state is found; from rest by default
     load: tuple[tuple[float, ...], ...] = ()  # dead force and moment at the tip, over EI3/L², EI3/L
     lift: float = 0.0  # pull on all masses along the axis of rotation, over EI3/(m0 L³)
     mirror: bool = False
-    stiff: ClassVar[bool] = True  # twist has hardly any inertia, or none
+    driven: ClassVar[bool] = False
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates."""
+        return int(self.model.size)
+
+    @property
+    def functions(self) -> int:
+        """Number of functions for each curvature of bending."""
+        return int(self.model.bending)
+
+    @property
+    def stiff(self) -> bool:
+        """Whether some motion has hardly any inertia, or none, as twist."""
+        return bool(self.model.stiff)
+
+    def lifted(self, q: FloatArray, finer: SteadyBlade) -> FloatArray:
+        """Return the coordinates of the same shape on more functions, along the last axis."""
+        return on_more(q, self.model.families, finer.model.families)
+
+    def unloaded(self, frequency: float) -> SteadyBlade:
+        """Return it without load, at the speed that belongs to a drive's frequency."""
+        del frequency
+        return self
+
+    def by(self, *drive: Any) -> Driven:
+        """Return what drives it, where a drive acts at phases (samples,) and a frequency."""
+        del drive
+        return Driven(self.rate, push=self.push)
+
+    def residual(self, *state: Any) -> FloatArray:
+        """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ and their drive."""
+        return np.asarray(self.model.residual(*state[:3], self.by(*state[3:])))
+
+    def tangent(self, *state: Any) -> Tangent:
+        """Return the residual of the same states and its derivatives to q, q̇ and q̈."""
+        tangent: Tangent = self.model.tangent(*state[:3], self.by(*state[3:]))
+        return tangent
+
+    def section_loads(self, x: FloatArray, *state: Any) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment at `x` in the same states, as the model has them."""
+        loads: tuple[FloatArray, FloatArray]
+        loads = self.model.section_loads(x, *state[:3], self.by(*state[3:]))
+        return loads
+
+    def potential(self, q: FloatArray) -> FloatArray:
+        """Return the amended potential, of the elastic and the centrifugal forces, (samples,)."""
+        return np.asarray(self.model.amended_potential(q, self.rate))
+
+    def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
+        """Return the kinetic energy relative to the rotating frame, (samples,)."""
+        return np.asarray(self.model.kinetic_energy(q, q_dot))
 
     @cached_property
     def push(self) -> FloatArray | None:
         """The load, as `model.residual` takes it."""
         if not (self.load or self.lift):
             return None
-        result = self.model.push(np.zeros(1, dtype=complex), "mass", self.lift)
+        result: FloatArray = self.model.push(np.zeros(1, dtype=complex), "mass", self.lift)
         if self.load:
             result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
         return result
 
     @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
-        """True for coordinates that time reversal turns around, (n,); None without a reversal.
-
-        Nor where the gauge is not among them: of blades with precone the lag is, flap is not.
-        """
-        if self.direction[2] and not self.model.functions.blade.half_turn:
-            return None
-        return self.model.functions.odd_by(mirror=True) if self.mirror else self.model.functions.odd
+        """True for coordinates that time reversal turns around, (n,); None without a reversal."""
+        odd: NDArray[np.bool_] | None = self.model.reversal(self.component, self.mirror)
+        return odd
 
     @property
     def pinned(self) -> int:
         """The first coordinate of the gauge's curvature."""
-        return 1 if self.direction[2] else 0
+        return self.component - 1
 
-    @cached_property
+    @property
     def equilibrium(self) -> FloatArray:
         """Coordinates (n,) of the steady state; refused if it ends, or gets unstable, before."""
+        return self._steady[0]
+
+    @property
+    def linearized(self) -> Tangent:
+        """The tangent at the steady state, (1, n, n)."""
+        return self._steady[1]
+
+    @cached_property
+    def _steady(self) -> tuple[FloatArray, Tangent]:
         found = None if self.near is None else self._newton(self.near, 1.0)
         if found is not None:
             return found
-        unit = self.model.functions.blade
         # A straight blade stays straight, and nothing is to be followed.
-        still = self.push is None and (self.rate == 0.0 or (unit.half_turn and unit.mirrored))
+        still = self.push is None and (self.rate == 0.0 or self.model.uncoupled)
         q, reached, step = np.zeros(self.size), float(still), 1.0
         for _ in range(_STEPS):
             share = min(reached + step, 1.0)
@@ -153,7 +230,7 @@ class SpaceBlade(AtConstantRate):
             if found is not None:
                 if share == 1.0:
                     return found
-                q, reached, step = found, share, 2.0 * step
+                q, reached, step = found[0], share, 2.0 * step
             else:
                 step = 0.5 * (share - reached)
                 if step <= _SHORTEST * reached:
@@ -171,8 +248,8 @@ class SpaceBlade(AtConstantRate):
             remedies.append("load it less, and check its unit")
         return f"the steady state {how} at {' and '.join(at)}: {', or '.join(remedies)}"
 
-    def _newton(self, q: FloatArray, share: float) -> FloatArray | None:
-        """Return the state that `q` (n,) goes over into at shares of speed and load.
+    def _newton(self, q: FloatArray, share: float) -> tuple[FloatArray, Tangent] | None:
+        """Return the state that `q` (n,) goes over into at shares of speed and load; its tangent.
 
         None where it may be one of another branch: the tangent must stay stable, and the second
         change be less than a quarter of the first, as it is where the theorem of Newton and
@@ -180,71 +257,130 @@ class SpaceBlade(AtConstantRate):
         """
         still, rate = np.zeros((1, self.size)), share * self.rate
         push = None if self.push is None else share * self.push
-        # A moment that keeps its direction has no potential.
-        values = np.linalg.eigvals if push is not None and push[2].any() else np.linalg.eigvalsh
+        turned = push is not None and push[2].any()
         sizes: list[float] = []
         for _ in range(_CHANGES):
             tangent = self.model.tangent(q[None], still, still, Driven(rate, push=push))
-            if not values(tangent.stiffness[0]).real.min() > 0.0:
+            if not _positive(tangent.stiffness[0], symmetric=not turned):
                 return None
             change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
             q = q - change
             sizes.append(float(np.linalg.norm(change)))
             if sizes[-1] <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
-                return q
+                return q, tangent
             if len(sizes) == 2 and not sizes[1] <= _CONTRACTION * sizes[0]:
                 return None
         return None
 
     def gauge(self, q: FloatArray) -> FloatArray:
-        """Return the tip's place along the direction, relative to the steady state, (samples,)."""
-        return np.asarray((self.model.tip(q) - self.tip) @ np.array(self.direction))
+        """Return the tip's place along the component, from the steady state, (samples,)."""
+        return np.asarray(self.model.tip(q)[:, self.component] - self._still)
+
+    @cached_property
+    def _still(self) -> float:
+        """The component in the steady state: zero of a blade that stays straight."""
+        straight = self.push is None and self.model.uncoupled
+        return 0.0 if straight else float(self.tip[self.component])
 
     def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return its rate, (samples,)."""
-        return np.asarray(self.model.tip_rate(q, q_dot) @ np.array(self.direction))
+        return np.asarray(self.model.tip_rate(q, q_dot)[:, self.component])
 
     def gauge_gradient(self, q: FloatArray) -> FloatArray:
         """Return its derivatives to the coordinates, (samples, n)."""
-        return np.asarray(np.array(self.direction) @ self.model.tip_gradient(q))
+        return np.asarray(self.model.tip_gradient(q)[:, self.component])
 
-    def refined(self) -> SpaceBlade:
+    def refined(self) -> Self:
         """Return the blade on half as many functions again, the same each time."""
         return self._finer
 
     @cached_property
-    def _finer(self) -> SpaceBlade:
+    def _finer(self) -> Self:
         finer = replace(self, model=self.model.refined())
         return replace(finer, near=self.lifted(self.equilibrium, finer))
 
     @cached_property
-    def tip(self) -> FloatArray:
-        """Place of the tip from the clamp in the steady state, (3,)."""
-        return np.asarray(self.model.tip(self.equilibrium[None])[0])
+    def vibration(self) -> tuple[FloatArray, ComplexArray]:
+        """Frequencies, ascending, and shapes (n, modes) in columns.
+
+        Each block is solved alone: equal frequencies of both would mix them.
+        """
+        parts = list(map(self.vibration_of, self.blocks))
+        frequencies, shapes = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
+        order = np.argsort(frequencies, kind="stable")
+        return frequencies[order], shapes[:, order]
+
+    @property
+    def blocks(self) -> list[NDArray[np.intp]]:
+        """Places of coordinates that move without the others: of lag, of flap and torsion."""
+        if not self.model.uncoupled or self.push is not None:
+            return [np.arange(self.size)]
+        return list(map(np.flatnonzero, self.model.blocks))
+
+    def vibration_of(self, moving: NDArray[np.intp]) -> tuple[FloatArray, ComplexArray]:
+        """Return the same where only some coordinates move.
+
+        x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C. Under time reversal odd coordinates go with
+        the sine, the others with the cosine: K - ΩS - Ω²M is real. Their shapes are real there,
+        the others' imaginary.
+        """
+        K, C, M = (part[0][np.ix_(moving, moving)] for part in self.linearized[1:])
+        skew, turn = 0.5 * (C - C.T), np.ones(moving.size, dtype=np.complex128)
+        coupling: FloatArray | ComplexArray = -1j * skew
+        if self.odd is not None and self.push is None:
+            odd = self.odd[moving]
+            coupling = np.where(np.outer(odd, ~odd), skew, 0.0)
+            coupling, turn = coupling + coupling.T, np.where(odd, 1.0, 1.0j)
+        inverse, found = reciprocal_modes(0.5 * (K + K.T), coupling, 0.5 * (M + M.T))
+        # Some motion has no inertia; the inextensible beam has no axial modes.
+        kept = inverse > _MASSLESS
+        shapes = np.zeros((self.size, np.count_nonzero(kept)), dtype=np.complex128)
+        shapes[moving] = turn[:, None] * found[:, kept]
+        return 1.0 / inverse[kept], shapes
 
     @cached_property
-    def linearized(self) -> Tangent:
-        """The tangent at the steady state, (1, n, n)."""
-        still = np.zeros((1, self.size))
-        return self.tangent(self.equilibrium[None], still, still)
+    def tip(self) -> FloatArray:
+        """Place of the tip from the clamp in the steady state."""
+        return np.asarray(self.model.tip(self.equilibrium[None])[0])
 
 
-def finer_blades(first: SpaceBlade) -> Iterator[SpaceBlade]:
+def _positive(stiffness: FloatArray, *, symmetric: bool) -> bool:
+    """Whether a state is stable; a moment that keeps its direction has no potential."""
+    if not symmetric:
+        return bool(np.linalg.eigvals(stiffness).real.min() > 0.0)
+    try:
+        np.linalg.cholesky(stiffness)
+    except np.linalg.LinAlgError:
+        return False
+    return True
+
+
+BladeOrbit = Orbit[SteadyBlade]
+"""A free periodic orbit of a blade."""
+
+
+def finer_blades(first: SteadyBlade) -> Iterator[SteadyBlade]:
     """Yield a blade on more and more functions, up to the most that are taken, once at least.
 
     Many kinks or stations need more from the beginning: a panel lies between two of them.
     """
-    most = max(MOST_FUNCTIONS, first.functions)
-    return refined(first, SpaceBlade.refined, lambda one: one.functions > most)
+    most = max(first.model.most_functions, first.functions)
+    return refined(first, SteadyBlade.refined, lambda one: one.functions > most)
 
 
-def space_rotation(blade: Blade, omega: float, model: SpaceContinuum) -> SpaceBlade:
-    """Return the blade in steady rotation at ω [rad/s], refusing a speed that tears it."""
-    if model.functions.theory.extension:
+def rotating_blade(
+    blade: Blade, omega: float, model: Model, gauge: object = "lag", **more: Any
+) -> SteadyBlade:
+    """Return the blade in steady rotation at ω [rad/s].
+
+    Refuses a speed that tears it, and a gauge that it does not have.
+    """
+    if gauge not in GAUGES:
+        raise ValueError(f"gauge must be 'lag' or 'flap', got {gauge!r}")
+    if gauge not in model.gauges:
+        raise ValueError(
+            f"this blade stays in its plane under the load, and gauge is {gauge!r}: leave it out"
+        )
+    if model.extends:
         require_steady_state(blade, omega)
-    return SpaceBlade(model, omega / blade.frequency_scale)
-
-
-def rotating_blade(blade: Blade, omega: float, model: Any) -> Any:
-    """Return the blade in steady rotation at ω [rad/s], in its plane or in space as the model."""
-    return (space_rotation if model.in_space else steady_rotation)(blade, omega, model)
+    return SteadyBlade(model, omega / blade.frequency_scale, GAUGES[str(gauge)], **more)

@@ -26,12 +26,15 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
+from ...blade import Blade
 from ...methods.system import Tangent
+from ...theory import Theory
 from .basis import StrainFunctions
 from .changes import Changes, Rates, State
 from .state import Driven, flap_of_kick
@@ -45,7 +48,11 @@ class SpaceContinuum:
     of `Continuum`, of which it has the coordinates.
     """
 
-    in_space: ClassVar[bool] = True
+    gauges: ClassVar[tuple[str, ...]] = ("lag", "flap")
+    softening_orbits: ClassVar[int] = 3  # λ_ω changes fast near a pole, as where lag meets 2 flap
+    most_functions: ClassVar[int] = 80  # for each curvature
+    twists: ClassVar[bool] = True
+    stiff: ClassVar[bool] = True
     has_dear_tangent: ClassVar[bool] = True
     """Whether one costs many residuals, so that it serves in the steps of time after it."""
 
@@ -65,17 +72,19 @@ class SpaceContinuum:
         """Return the part at the grid's points of a field at the masses, (..., points)."""
         return field[..., : self.points.size]
 
-    def _strains(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _strains(self, q: FloatArray, at: Any = None) -> tuple[FloatArray, FloatArray]:
         """Return Γ and K, (3, samples, points)."""
-        own = self.strains
+        own = at or self.strains
         K = own.initial[:, None] + q @ own.K.swapaxes(1, 2)
         gamma = q @ own.gamma.swapaxes(1, 2)
         gamma[0] += 1.0 - 0.5 * own.trapeze * (K[0] ** 2 + 2.0 * own.twist * K[0])
         return gamma, K
 
-    def _rates(self, K: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _rates(
+        self, K: FloatArray, q_dot: FloatArray, at: Any = None
+    ) -> tuple[FloatArray, FloatArray]:
         """Return Γ̇ and K̇ of coordinates that change by q̇; of any small change of q as well."""
-        own = self.strains
+        own = at or self.strains
         change = q_dot @ own.K.swapaxes(1, 2)
         gamma = q_dot @ own.gamma.swapaxes(1, 2)
         gamma[0] -= own.trapeze * (K[0] + own.twist) * change[0]
@@ -266,10 +275,24 @@ class SpaceContinuum:
 
         In the root frame; axes of sections in columns.
         """
-        to_x = Frames(self.blade.running(self.functions.grid, x), self.blade.kinks)
-        frame = to_x.of(self._strains(q)[1])[..., self.points.size :]
-        sections = np.einsum("ijsp,jkp->spik", frame, self.blade.section_frames(x))
+        sections = np.einsum("ijsp,jkp->spik", self._frame_at(q, x), self.blade.section_frames(x))
         return self.places(q, x), sections
+
+    def _frame_at(self, q: FloatArray, x: FloatArray) -> FloatArray:
+        to_x = Frames(self.blade.running(self.functions.grid, x), self.blade.kinks)
+        return to_x.of(self._strains(q)[1])[..., self.points.size :]
+
+    def slopes(
+        self, q: FloatArray, q_dot: FloatArray, x: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the derivatives of places to `x`, (samples, points, 3), and their rates."""
+        own, frame, K = self.functions.at(x), self._frame_at(q, x), self._strains(q)[1]
+        gamma, bend = self._strains(q, own)
+        turning = turned(self._state(q).frame, self._rates(K, q_dot)[1])
+        spin = turning @ self.functions.grid.integral(x).T
+        slope = turned(frame, gamma)
+        rate = cross(spin, slope) + turned(frame, self._rates(bend, q_dot, own)[0])
+        return np.moveaxis(slope, 0, -1), np.moveaxis(rate, 0, -1)
 
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
@@ -280,9 +303,58 @@ class SpaceContinuum:
         """1: loads in the plane of rotation act in it, however the blade is set."""
         return 1.0
 
-    def deflection(self, q: FloatArray, q_dot: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the tip's lag, and its rate, (samples,) each."""
-        return self.tip(q)[:, 1], self.tip_rate(q, q_dot)[:, 1]
+    @property
+    def tolerance(self) -> float:
+        """Relative change of the frequencies from one basis to the next."""
+        return self.blade.tolerance
+
+    @property
+    def tail(self) -> float:
+        """As of `Care`."""
+        return self.blade.tail
+
+    @property
+    def extends(self) -> bool:
+        """Whether tension stretches the axis."""
+        return self.functions.theory.extension
+
+    @property
+    def uncoupled(self) -> bool:
+        """Whether flap and torsion go without lag."""
+        return self.functions.uncoupled
+
+    @property
+    def resolved(self) -> int:
+        """Number of modes that the functions resolve: half of those for each curvature."""
+        return self.bending
+
+    @property
+    def blocks(self) -> list[NDArray[np.bool_]]:
+        """Coordinates of lag and axial motion, which the plane's mirror keeps, and the others."""
+        across = self.functions.odd_by(mirror=False) ^ self.functions.odd_by(mirror=True)
+        return [~across, across]
+
+    def beyond(self, blade: Blade, theory: Theory) -> str | None:
+        """Return None: no motion is beyond its own, as that out of a plane is."""
+        del blade, theory
+        return None
+
+    def skews(self, rate: float) -> bool:
+        """Whether Coriolis forces or its shape tell the sides of a swing: it has even harmonics."""
+        return abs(rate) > 1e-9 or not self.blade.half_turn
+
+    def family(self, gauge: str) -> str:
+        """Return the family of modes that move the tip along the gauge."""
+        return gauge
+
+    def reversal(self, component: int, mirror: bool) -> NDArray[np.bool_] | None:
+        """Return coordinates that time reversal turns around, (n,); None without a reversal.
+
+        Nor where the gauge is not among them: of blades with precone the lag is, flap is not.
+        """
+        if component == 2 and not self.blade.half_turn:
+            return None
+        return self.functions.odd_by(mirror=True) if mirror else self.functions.odd
 
     def push(self, force: ComplexArray, acts_on: str, lift: FloatArray | float = 0.0) -> FloatArray:
         """Return a force in the plane of rotation and along its axis, as `residual` takes it.
@@ -303,12 +375,12 @@ class SpaceContinuum:
     def moved(
         self, q: FloatArray, shapes: ComplexArray, x: FloatArray
     ) -> tuple[ComplexArray, ComplexArray]:
-        """Return how small changes (count, n) move points, (3, points, count), and twist them."""
+        """Return how small changes (count, n) move and turn points, (3, points, count) each."""
         change, onto = self.changes(q[None]), self.functions.grid.integral(x)
         place, turn = (
             onto @ np.swapaxes(shapes @ field[:, 0], 1, 2) for field in (change.slope, change.bend)
         )
-        return place, turn[0]
+        return place, turn
 
     def shares(self, q: FloatArray, shapes: ComplexArray) -> FloatArray:
         """Return the shares of flap, lag, torsion and axial motion in their kinetic energy."""

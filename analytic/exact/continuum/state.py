@@ -1,65 +1,77 @@
-"""The exact beam at material points: its state, to start a code from, and the loads in sections."""
+"""A blade at material points: its state, to start a code from, and the loads in sections."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
+from ...input_checks import points_of_beam
 
 if TYPE_CHECKING:
     from ...blade import Blade
 
 
 @dataclass(frozen=True, kw_only=True)
-class BeamState:
-    """State of the beam at material points, in the rotating frame: r = (x + u, v, w); SI units.
+class BladeState:
+    """State of a blade at material points, in the frame that turns with the clamp; SI units.
+
+    Components are along the clamp, in the direction of rotation (lag) and normal to both (flap).
 
     Attributes
     ----------
-    u, v : ndarray (points,)
-        Displacements along and across the undeformed axis [m].
-    u_slope, v_slope : ndarray (points,)
-        Their derivatives to x, u' and v' [-].
-    u_dot, v_dot, u_slope_dot, v_slope_dot : ndarray (points,)
-        The rates of all four as seen in the rotating frame [m/s, 1/s].
-    shear_angle, shear_angle_dot : ndarray (points,) or float
-        How far the sections lag behind the tangent [rad], and its rate [rad/s]; 0 without shear.
-    w, w_slope, w_dot, w_slope_dot : ndarray (points,) or float
-        Displacement out of the plane [m], its derivative to x, and the rates of both; 0 in the
-        plane. Sections are turned about their tangent by nothing.
+    place, velocity : ndarray (points, 3)
+        Places from the clamp [m] and their rates [m/s].
+    slope, slope_rate : ndarray (points, 3)
+        Derivatives of both to the length x of the unloaded blade [-, 1/s].
+    section : ndarray (points, 3, 3)
+        Axes of the sections, in columns, as of `SectionLoads`; with shear the first is not along
+        the slope.
+    spin : ndarray (points, 3)
+        Angular velocity of the sections, as seen in this frame [rad/s].
 
     Examples
     --------
     >>> from analytic import Beam, periodic_orbits
     >>> orbit = periodic_orbits(Beam.reference(), omega=6.0, amplitudes=[0.3])
-    >>> state = orbit.state(0, [4.0, 8.0], phase=1.0)
-    >>> print(state.u.round(4), state.v.round(4))
-    [-0.094  -0.2838] [0.8022 2.0198]
+    >>> print(orbit.state(0, [4.0, 8.0], phase=1.0).place.round(4))
+    [[3.906  0.8022 0.    ]
+     [7.7162 2.0198 0.    ]]
     """
 
-    u: FloatArray
-    v: FloatArray
-    u_slope: FloatArray
-    v_slope: FloatArray
-    u_dot: FloatArray
-    v_dot: FloatArray
-    u_slope_dot: FloatArray
-    v_slope_dot: FloatArray
-    shear_angle: FloatArray | float = 0.0
-    shear_angle_dot: FloatArray | float = 0.0
-    w: FloatArray | float = 0.0
-    w_slope: FloatArray | float = 0.0
-    w_dot: FloatArray | float = 0.0
-    w_slope_dot: FloatArray | float = 0.0
+    place: FloatArray
+    velocity: FloatArray
+    slope: FloatArray
+    slope_rate: FloatArray
+    section: FloatArray
+    spin: FloatArray
+
+    def seen_from(self, axes: FloatArray) -> BladeState:
+        """Return the state in a frame whose axes are the columns of a rotation (3, 3)."""
+        parts = {name: value @ axes for name, value in vars(self).items()}
+        return BladeState(**parts | {"section": axes.T @ self.section})
 
 
-def straight_state(x: FloatArray, **moving: FloatArray) -> BeamState:
-    """Return the state at `x` of a straight blade at rest, but for the parts that are given."""
-    flat = dict.fromkeys((one.name for one in fields(BeamState)), np.zeros_like(x))
-    return BeamState(**flat | moving)
+def state_of(
+    blade: Blade, model: Any, q: FloatArray, q_dot: FloatArray, x: ArrayLike
+) -> BladeState:
+    """Return the state of coordinates and their rates (n,) at the points `x` [m]."""
+    at = points_of_beam("x", x, blade.length)
+    length, per_second = blade.length, blade.frequency_scale
+    (place,), (section,) = model.standing(q[None], at)
+    velocity, spin = (part[..., 0].real.T for part in model.moved(q, q_dot[None], at))
+    (slope,), (slope_rate,) = model.slopes(q[None], q_dot[None], at)
+    return BladeState(
+        place=length * place,
+        velocity=length * per_second * velocity,
+        slope=slope,
+        slope_rate=per_second * slope_rate,
+        section=section,
+        spin=per_second * spin,
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,9 +164,3 @@ def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:
         derivative
     )(x)
     return found
-
-
-def kicked_state(length: float, speed: float, x: FloatArray) -> BeamState:
-    """Return the state at `x` [m] of a straight blade whose tip is kicked out of the plane."""
-    slope = speed / length * flap_of_kick(x / length, 1)
-    return straight_state(x, w_dot=speed * flap_of_kick(x / length), w_slope_dot=slope)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal
 
@@ -18,73 +18,40 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..continuum.planar import Continuum
-from ..continuum.planar_rotation import (
-    MOST_FUNCTIONS,
-    Discretized,
-    SteadyBeam,
-    resolved_model,
-    steady_rotation,
-)
-from ..continuum.rotation import SpaceBlade, lives_in_space, space_continuum, space_rotation
-from ..continuum.space import SpaceContinuum
+from ..continuum.planar import MOST_FUNCTIONS
+from ..continuum.rotation import SteadyBlade, continuum_of, rotating_blade
 from ..continuum.state import Driven
 from ..linear.modes import driven_modes
-from ..linear.space_modes import DIRECTIONS, require_gauge
 from .forced_orbits import ForcedResponse, ResponseNotReachedError
 from .transient import pushes, unit_load
 
 _LARGEST = 0.95  # |q|/L to which a response is followed
 
 
-@dataclass(frozen=True, eq=False)
-class DrivenBlade(Discretized):
-    """The blade under one load in steady rotation, in its plane or in space; a system of `methods`.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DrivenBlade(SteadyBlade):
+    """The blade under one load in steady rotation, a driven system of `methods`.
 
     Under gravity, which goes around once a turn, the drive's frequency ν is the speed as well. The
     gauge is that of the blade without the load, which has no dimensions.
     """
 
-    steady: SteadyBeam | SpaceBlade
-    load: Load
+    drive: Load
     driven: ClassVar[bool] = True
     odd: ClassVar[None] = None
 
     @property
-    def model(self) -> Continuum | SpaceContinuum:
-        """The discretization."""
-        return self.steady.model
-
-    @property
-    def gauge(self) -> Callable[[FloatArray], FloatArray]:
-        """The function that returns the tip's deflection, (samples,)."""
-        return self.steady.gauge
-
-    @property
-    def gauge_rate(self) -> Callable[[FloatArray, FloatArray], FloatArray]:
-        """The function that returns its rate, (samples,)."""
-        return self.steady.gauge_rate
-
-    @property
-    def gauge_gradient(self) -> Callable[[FloatArray], FloatArray]:
-        """The function that returns its derivatives to the coordinates, (samples, n)."""
-        return self.steady.gauge_gradient
-
-    def refined(self) -> DrivenBlade:
-        """Return the blade on half as many functions again."""
-        return replace(self, steady=self.steady.refined())
-
-    @property
     def _turns(self) -> bool:
-        return self.load.varied == "speed"
+        return self.drive.varied == "speed"
 
     def speed(self, frequency: float) -> float:
         """Return w̄."""
-        return frequency if self._turns else self.steady.rate
+        return frequency if self._turns else self.rate
 
-    def unloaded(self, frequency: float) -> SteadyBeam | SpaceBlade:
+    def unloaded(self, frequency: float) -> SteadyBlade:
         """Return the blade in steady rotation without the load."""
-        return replace(self.steady, rate=frequency) if self._turns else self.steady
+        near = None if self._turns else self.equilibrium
+        return SteadyBlade(self.model, self.speed(frequency), self.component, near)
 
     def rest(self, frequency: float) -> FloatArray:
         """Return the steady state without the load, (n,)."""
@@ -92,16 +59,16 @@ class DrivenBlade(Discretized):
 
     def loaded(self, share: float) -> DrivenBlade:
         """Return the blade under a share of the load."""
-        return replace(self, load=self.load.times(share))
+        return replace(self, drive=self.drive.times(share))
 
     def by(self, *drive: Any) -> Driven:
         """Return what drives it at the phases."""
         phase, nu = drive
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
         angle = phase if self._turns else np.full_like(phase, np.nan)
-        push = pushes(self.model, [(self.load, phase)], angle)
-        rate = self.speed(nu) + self.load.rate(phase)
-        return Driven(rate, self.load.acceleration(phase, nu), push)
+        push = pushes(self.model, [(self.drive, phase)], angle)
+        rate = self.speed(nu) + self.drive.rate(phase)
+        return Driven(rate, self.drive.acceleration(phase, nu), push)
 
 
 @one_thread
@@ -150,7 +117,7 @@ def forced_response(
     ValueError, TypeError
         If an input is refused; if the blade is undamped and the frequencies hold a resonance.
     ResponseNotReachedError
-        If the curve cannot be followed to its end; its `.response` holds the part that was found.
+        If the curve cannot be followed to its end; its `.part` is the response up to there.
 
     Examples
     --------
@@ -197,45 +164,30 @@ def forced_response(
     else:
         highest, asked = rotation_speed(omega), _ascending("frequencies", frequencies)
         warn_if_rpm(blade, highest)
-    steady, tail = _planar_or_spatial(blade, highest, theory, functions, gauge)
+    functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
+    model = continuum_of(blade, theory, functions, functions // 2)
+    steady = rotating_blade(blade, highest, model, gauge)
     if not any(blade.unit.damping):
         _require_no_resonance(blade, None if by_speed else highest, theory, asked)
     # Deflections are told from the steady state, at changing speeds from that at rest.
-    system = DrivenBlade(replace(steady, rate=0.0) if by_speed else steady, unit)
+    rate = 0.0 if by_speed else steady.rate
+    system = DrivenBlade(model=model, rate=rate, component=steady.component, drive=unit)
     least = whole_number("harmonics", harmonics)
     try:
-        found = response_curve(system, asked / blade.frequency_scale, _LARGEST, least, tail)
+        found = response_curve(system, asked / blade.frequency_scale, _LARGEST, least, model.tail)
     except NoOrbitError as failed:
         response, last = None, f" at {asked[0]:g} rad/s"
         if failed.last:
             response = _packed(blade, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
-        free = lives_in_space(blade, theory) and not blade.damping.bending
+        free = model.twists and not blade.damping.bending
         more = "damping of the bending, without which torsion has none," if free else "more damping"
         remedy = failed.remedy or f"take {more} or a smaller load"
         raise ResponseNotReachedError(
             f"the response to {load} was not found{last}: {failed}; {remedy}", response
         ) from None
     return _packed(blade, load, theory, found)
-
-
-def _planar_or_spatial(
-    blade: Blade, omega: float, theory: Theory, functions: int, gauge: str
-) -> tuple[SteadyBeam | SpaceBlade, float]:
-    """Return the blade in steady rotation at ω [rad/s], and the tail of `Care`."""
-    require_gauge(gauge)
-    if not lives_in_space(blade, theory):
-        if gauge == "flap":
-            raise ValueError(
-                "this blade stays in its plane under the load, and gauge is 'flap': leave it out"
-            )
-        model = resolved_model(blade, 1, theory, functions)
-        return steady_rotation(blade, omega, model), 1.0
-    functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
-    in_space = space_continuum(blade, theory, functions // 2)
-    steady = replace(space_rotation(blade, omega, in_space), direction=DIRECTIONS[gauge])
-    return steady, in_space.functions.blade.tail
 
 
 def _ascending(name: str, values: Any) -> FloatArray:

@@ -13,22 +13,17 @@ from ...blade_checks import undamped
 from ...input_checks import finite_array, finite_number
 from ...loads import Load
 from ...plotting import axes_or_new, draw_response
+from ...warning import PartialError
+from ..continuum.rotation import GAUGES
 from ..free.backbone import Backbone, backbone
 from ..free.branch import Branch, SpecialPoint
-from ..linear.modes import driven_modes
 
 if TYPE_CHECKING:
     from ...plotting import Axes
 
-_LOOKED_AT = 6  # modes, for the backbone
 
-
-class ResponseNotReachedError(RuntimeError):
-    """A response curve ended too early; `response` holds the part that was found, or None."""
-
-    def __init__(self, message: str, response: ForcedResponse | None = None) -> None:
-        super().__init__(message)
-        self.response = response
+class ResponseNotReachedError(PartialError):
+    """A response curve ended too early; its `part` is the ForcedResponse up to there, or None."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,16 +113,17 @@ class ForcedResponse(Branch):
                 "backbone: take periodic_orbits at one of them"
             )
         blade, omega = undamped(self.blade), float(self.omega[0])
-        mode = f"{self.gauge} 1"
-        if not self.nondimensional[0].system.model.in_space:
-            # Set steeply, a blade in its plane of bending has modes of flap.
-            (mode,) = driven_modes(blade, omega, theory=self.theory).names
+        mode = f"{self._system.model.family(self.gauge)} 1"
         return backbone(blade, omega, mode, theory=self.theory)
+
+    @property
+    def _system(self) -> Any:
+        return self.nondimensional[0].system
 
     @property
     def gauge(self) -> Literal["lag", "flap"]:
         """Place of the tip whose greatest deflection is the amplitude."""
-        return "flap" if self.nondimensional[0].system.steady.direction[2] else "lag"
+        return "flap" if self._system.component == GAUGES["flap"] else "lag"
 
     def plot(self, ax: Axes | None = None, **line: Any) -> Axes:
         """Draw the peak amplitude over the frequency: unstable dashed, folds as rings.

@@ -19,10 +19,9 @@ from ...loads import Load, loads_in_time, rippled
 from ...motion import SpeedChange, require_ramp
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..continuum.planar_rotation import blade_continuum
-from ..continuum.rotation import lives_in_space, require_bent, rotating_blade, space_continuum
+from ..continuum.rotation import continuum_of, require_bent, rotating_blade
 from ..continuum.state import SectionLoads, in_newtons
-from ..linear.space_modes import flap_shape
+from ..linear.families import flap_shape
 from .transient import drive, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -189,16 +188,15 @@ def spin_up_response(
             "kick and bent move a blade out of its plane, which this one leaves by itself: leave "
             "them out"
         )
-    space = lives_in_space(blade, theory, loads) or bool(kick or bent)
     coarser, error, size = None, math.inf, 0.0
     fewest = math.ceil(_A_DIGIT * digits)
     # The kinks of a table leave an algebraic tail.
     more = fewest // 2 if blade.unit.cells.size > _MANY_CELLS else _MORE_FUNCTIONS
     for level in range(_REFINEMENTS):
         functions = fewest + max(more, blade.unit.panel_count) * level
-        model: Any = (
-            space_continuum(blade, theory, functions) if space
-            else blade_continuum(blade, theory, functions, functions // 2)
+        model: Any = continuum_of(
+            blade, theory, functions, functions, axial=functions // 2, loads=loads,
+            leaves=bool(kick or bent),
         )  # fmt: skip
         rotating_blade(blade, highest, model)  # refuses a speed that tears the blade
         corners, counts = _steps(blade, spin_up, float(time[-1]), digits, level)

@@ -20,8 +20,7 @@ from ...blade_checks import require_blade
 from ...loads import Load, require_load
 from ...methods.collocation import OWN_TANGENT, TANGENT_BEFORE, radau
 from ...motion import Rotation
-from ..continuum.planar import Continuum
-from ..continuum.space import SpaceContinuum
+from ..continuum.rotation import Model
 from ..continuum.state import Driven
 
 _STAGES = 8
@@ -59,9 +58,7 @@ def unit_load(blade: Blade, load: Load) -> Load:
     )
 
 
-def pushes(
-    model: Continuum | SpaceContinuum, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray
-) -> Any:
+def pushes(model: Model, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray) -> Any:
     """Return the force of all loads, with their phases (samples,), as a model takes it, or None."""
     total: Any = None
     for load, phase in loads:
@@ -73,7 +70,7 @@ def pushes(
 
 
 def drive(
-    blade: Blade, rotation: Rotation, loads: Sequence[Load], model: Continuum | SpaceContinuum
+    blade: Blade, rotation: Rotation, loads: Sequence[Load], model: Model
 ) -> Callable[[FloatArray], Driven]:
     """Return what gives w, ẇ and the push of the loads at times (stages,) [s]."""
     per_second = blade.frequency_scale
@@ -94,7 +91,7 @@ def integrated(
     blade: Blade,
     rotation: Rotation,
     loads: Sequence[Load],
-    model: Continuum | SpaceContinuum,
+    model: Model,
     grid: FloatArray,
     time: FloatArray,
     points: FloatArray,
@@ -156,7 +153,12 @@ def integrated(
         q, q_dot = positions[-1], velocities[-1]
     at = np.append(points, 1.0)
     parts = [
-        (*model.deflection(q, q_dot), model.tip_turn(q), model.places(q, at))
+        (
+            model.tip(q)[:, 1],
+            model.tip_rate(q, q_dot)[:, 1],
+            model.tip_turn(q),
+            model.places(q, at),
+        )
         for q, q_dot, _ in (state[:, few] for few in few_at_once(time.size))
     ]
     deflection, rate, twist, places = map(np.concatenate, zip(*parts, strict=True))

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import require_undamped, warn_if_rpm
 from ...input_checks import peak_deflection, rotation_speed, whole_number
-from ...methods.continuation import Care
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..continuum.planar_rotation import resolved_model
-from ..continuum.rotation import leaves_plane, lives_in_space, space_continuum
+from ..continuum.rotation import GAUGES, continuum_of
 from ..linear.modes import mode_name
-from ..linear.space_modes import DIRECTIONS
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve
 from .leaving import LeavingBranch, leaving_branch
@@ -49,7 +46,9 @@ class Backbone(ModePath):
 
         The main path is the path of `orbits`, on up to 120 harmonics. If a harmonic meets another
         mode and is felt, the orbits are followed by arclength from either side, through the folds
-        of the resonance and a way into its tongue. There the other mode takes over.
+        of the resonance and a way into its tongue. There the other mode takes over. The lowest four
+        other modes are looked at: in the plane if the orbits are (`leaving` has the way out of it),
+        of all families in space.
 
         Parameters
         ----------
@@ -59,7 +58,7 @@ class Backbone(ModePath):
         Raises
         ------
         ValueError
-            If the orbits are not in the plane: tongues are followed there only.
+            If `up_to` is refused.
         AmplitudeNotReachedError
             If no orbit grows out of the mode.
 
@@ -71,11 +70,7 @@ class Backbone(ModePath):
         ...     print(f"harmonic {one.harmonic} meets {one.mode} at a = {one.amplitude:.4f}")
         harmonic 16 meets lag 3 at a = 0.1269
         """
-        planar = self._in_plane(
-            "internal resonances are followed for planar blades only: take orbits, which end or "
-            "warn near one"
-        )
-        return followed_branch(planar, peak_deflection("up_to", up_to))
+        return followed_branch(self, peak_deflection("up_to", up_to))
 
     @one_thread
     def leaving(
@@ -111,21 +106,14 @@ class Backbone(ModePath):
         >>> print(f"{found.born.amplitude:.6f}")
         0.007719
         """
-        planar = self._in_plane("orbits in space have no plane to leave: take those of lag")
+        if self.model.beyond(self.blade, self.theory) is None:
+            raise ValueError("orbits in space have no plane to leave: take those of lag")
         low, high = peak_deflection("low", low), peak_deflection("high", high)
         if not low < high:
             raise ValueError(f"low must be below high, got {low:g} and {high:g}")
         if whole_number("periods", periods) > 2:
             raise ValueError(f"periods must be 1 or 2, got {periods}")
-        return leaving_branch(planar, low, high, periods, whole_number("points", points))
-
-    def _in_plane(self, sentence: str) -> Backbone:
-        """Return it in the plane, which orbits in space may keep to; refuse those that do not."""
-        if not self.model.in_space:
-            return self
-        if leaves_plane(self.blade) or not self.mode.startswith("lag"):
-            raise ValueError(sentence)
-        return _planar(self.blade, self.omega, self.mode, self.theory, 2 * self.model.bending)
+        return leaving_branch(self, low, high, periods, whole_number("points", points))
 
 
 def backbone(
@@ -173,25 +161,16 @@ def backbone(
     require_undamped(blade, "a damped blade has no free periodic orbits")
     name = mode_name(blade, omega, mode, theory)
     family, number = name.split()
-    if family not in DIRECTIONS:
+    if family not in GAUGES:
         raise ValueError(
             f"the amplitude of orbits is how far the tip moves across, and mode is {name!r}: take "
             "a mode of lag or flap"
         )
-    out_of_plane = family == "flap" and blade.section.knows_space
-    if lives_in_space(blade, theory) or out_of_plane:
-        in_space = space_continuum(blade, theory, max(functions // 2, 2 * int(number) + 2))
-        care = Care(tail=in_space.functions.blade.tail)
-        return Backbone(
-            blade=blade, omega=omega, mode=name, theory=theory, model=in_space, care=care
-        )
-    return _planar(blade, omega, name, theory, functions)
-
-
-def _planar(blade: Blade, omega: float, mode: str, theory: Theory, functions: int) -> Backbone:
-    """Return the backbone of a mode in the plane."""
-    model = resolved_model(blade, int(mode.split()[1]), theory, functions)
-    return Backbone(blade=blade, omega=omega, mode=mode, theory=theory, model=model)
+    leaves = family == "flap" and blade.section.knows_space
+    each = max(functions // 2, 2 * int(number) + 2)
+    model = continuum_of(blade, theory, functions, each, mode=int(number), leaves=leaves)
+    of = Backbone(blade=blade, omega=omega, mode=name, theory=theory, model=model)
+    return replace(of, care=of.care._replace(tail=model.tail))
 
 
 def periodic_orbits(
@@ -224,7 +203,7 @@ def periodic_orbits(
     ValueError
         If an argument is out of range, or the mode beyond what the functions resolve.
     AmplitudeNotReachedError
-        If an amplitude is not reached with a small residual; its `.orbits` are those below.
+        If an amplitude is not reached with a small residual; its `.part` are the orbits below.
 
     Warns
     -----

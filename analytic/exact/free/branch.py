@@ -25,8 +25,7 @@ from ...methods.orbit import Orbit
 from ...parts import Damping
 from ...theory import Theory
 from ...threads import one_thread
-from ..continuum.planar_rotation import state_of
-from ..continuum.state import BeamState, SectionLoads, in_newtons
+from ..continuum.state import BladeState, SectionLoads, in_newtons, state_of
 from ..stability.growth import GrowthOutOfPlane, growth_about
 
 _SAMPLES = 4096  # of a period, which find its ends to 3e-7 of a swing
@@ -90,7 +89,7 @@ class OrbitSet:
         q, q_dot, _ = orbit.coordinates(np.linspace(0.0, 2.0 * np.pi, n))
         return orbit.system.gauge(q), orbit.system.gauge_rate(q, q_dot)
 
-    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BeamState:
+    def state(self, i: int, x: ArrayLike, phase: float = 0.0) -> BladeState:
         """Return the state of orbit `i` at the material points `x` [m], to start a code from.
 
         In the frame of the clamp. Points beyond the beam, from 0 to L, are refused.
@@ -156,29 +155,18 @@ class OrbitSet:
 
         Out of the plane it is unknown where the section is, or shears.
         """
-        unknown = self._unknown_out_of_plane
-        return f"the plane alone: {unknown}" if unknown else "all directions"
-
-    @property
-    def _in_space(self) -> bool:
-        return bool(self.nondimensional[0].system.model.in_space)
+        return f"the plane alone: {self._beyond}" if self._beyond else "all directions"
 
     @cached_property
-    def _unknown_out_of_plane(self) -> str:
-        """Reason why nothing is known out of the plane, "" if it is."""
-        if not self._in_space:
-            try:
-                require_out_of_plane(self.blade, self.theory)
-            except ValueError as unknown:
-                return str(unknown)
-        return ""
+    def _beyond(self) -> str | None:
+        """Reason why nothing is known out of the plane, "" if it is; None of orbits in space."""
+        reason: str | None = self.nondimensional[0].system.model.beyond(self.blade, self.theory)
+        return reason
 
     @cached_property
     def _growth(self) -> GrowthOutOfPlane | None:
         """Growth out of the plane, None where the multipliers have all or it is unknown."""
-        if self._in_space or self._unknown_out_of_plane:
-            return None
-        return self.out_of_plane(confirm=self._confirms)
+        return self.out_of_plane(confirm=self._confirms) if self._beyond == "" else None
 
     @one_thread
     def out_of_plane(
@@ -221,7 +209,7 @@ class OrbitSet:
         >>> print(orbits.out_of_plane(damping=0.005).modes[1])
         ('flap 4', 'flap 5')
         """
-        if self._in_space:
+        if self._beyond is None:
             raise ValueError(
                 "these orbits are in space and have no plane to leave: `stable` is about all "
                 "directions"

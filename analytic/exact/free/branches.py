@@ -14,7 +14,7 @@ from ...methods.arclength import corrected
 from ...methods.continuation import Care, refined
 from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import At, Marked, OrbitCurve
-from ..continuum.planar_rotation import BeamOrbit
+from ..continuum.rotation import BladeOrbit
 from .branch import Branch
 from .internal_resonance import Resonance, frequency_at, pinned, resonances_along
 from .path import ModePath
@@ -94,7 +94,7 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
     )
 
 
-def _main_path(of: ModePath, up_to: float) -> list[BeamOrbit]:
+def _main_path(of: ModePath, up_to: float) -> list[BladeOrbit]:
     """Return the orbits on a grid of amplitudes, and the last that there is."""
     path, found = of.path, []
     coarse, fine = np.arange(_GRID, _FINE_FROM, _GRID), np.arange(_FINE_FROM, 1.0, _FINE_GRID)
@@ -117,7 +117,7 @@ def _main_path(of: ModePath, up_to: float) -> list[BeamOrbit]:
 
 
 def _tongue(
-    main: list[BeamOrbit], met: list[Resonance], resonance: Resonance, below: bool
+    main: list[BladeOrbit], met: list[Resonance], resonance: Resonance, below: bool
 ) -> list[Marked] | None:
     """Return the orbits off the main path into the tongue of a resonance, from one side."""
     near = [o for o in main if (o.amplitude < resonance.amplitude) == below]
@@ -136,7 +136,7 @@ def _tongue(
     if any(low < one.amplitude < high for one in felt):
         return None  # another resonance is nearer, and two sides of it give no direction
 
-    def goes_on(orbit: BeamOrbit) -> bool:
+    def goes_on(orbit: BladeOrbit) -> bool:
         """Whether the path has crossed the resonance without a tongue."""
         passed = (orbit.amplitude > other.amplitude) == below
         return passed and _share(orbit, k) < _TAKES_OVER * _share(other, k)
@@ -144,16 +144,16 @@ def _tongue(
     return _followed(before, last, goes_on)
 
 
-def _share(orbit: BeamOrbit, k: int) -> float:
+def _share(orbit: BladeOrbit, k: int) -> float:
     """Return the size of harmonic k over the size of the first."""
     sizes = orbit.sizes
     return float(sizes[k - 1] / sizes[0])
 
 
 def _followed(
-    before: BeamOrbit,
-    last: BeamOrbit,
-    goes_on: Callable[[BeamOrbit], bool],
+    before: BladeOrbit,
+    last: BladeOrbit,
+    goes_on: Callable[[BladeOrbit], bool],
     *,
     up_to: float = 1.0,
     points: int = _TONGUE_POINTS,
@@ -186,7 +186,7 @@ def _folds(piece: list[Marked]) -> bool:
     return any(mark == "fold" for _, mark in piece)
 
 
-def _better_resolved(orbit: BeamOrbit) -> BeamOrbit | None:
+def _better_resolved(orbit: BladeOrbit) -> BladeOrbit | None:
     """Return the orbit on more harmonics or functions, None if it needs none."""
     try:
         return refined(orbit)

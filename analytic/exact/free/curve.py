@@ -22,7 +22,7 @@ from ...methods.harmonic_balance import frequency_change
 from ...methods.newton import NoOrbitError
 from ...theory import Theory
 from ...warning import warn
-from ..continuum.planar_rotation import BeamOrbit
+from ..continuum.rotation import BladeOrbit
 from .internal_resonance import nearest_resonance
 from .path import AmplitudeNotReachedError, ModePath
 
@@ -148,7 +148,7 @@ def _fitting(of: ModePath, up_to: float) -> BackboneCurve:
     )
 
 
-def _apart(orbits: list[BeamOrbit]) -> list[BeamOrbit]:
+def _apart(orbits: list[BladeOrbit]) -> list[BladeOrbit]:
     """Return the last orbit and those below it that are not close to the next."""
     kept = orbits[-1:]
     for orbit in orbits[-2::-1]:

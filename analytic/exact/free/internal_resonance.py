@@ -17,7 +17,7 @@ from ...arrays import FloatArray
 from ...methods.floquet import floquet_multipliers
 from ...methods.newton import NoOrbitError
 from ...warning import warn
-from ..continuum.planar_rotation import BeamOrbit
+from ..continuum.rotation import BladeOrbit
 from .path import ModePath
 
 _NEAR = 0.1  # an internal resonance is this near: turns a period from the whole number
@@ -26,6 +26,7 @@ _FELT = 1e-7  # size of a harmonic of the gauge, over the first, that is no roun
 _LOOKS = 6
 _CLOSE = 5e-3  # amplitudes that pin a resonance down
 _INSIDE = 0.25  # of what is between two, from either
+FOLLOWED = "use backbone(...).branch to follow the branches"
 _NOTICEABLE = 1e-3  # size of a harmonic, relative to the first, that can drive another mode
 
 
@@ -50,7 +51,7 @@ class Resonance(NamedTuple):
     frequency: float
 
 
-def frequency_ratios(of: ModePath, orbits: Sequence[BeamOrbit]) -> tuple[list[str], FloatArray]:
+def frequency_ratios(of: ModePath, orbits: Sequence[BladeOrbit]) -> tuple[list[str], FloatArray]:
     """Return the names of the lowest other modes, and their ν_j/Ω (orbits, modes) about orbits.
 
     They ascend along the path of a mode. Multipliers leave open how many turns a mode makes in a
@@ -73,7 +74,7 @@ def _others(of: ModePath) -> list[int]:
     return [j for j in range(min(5, of.modes.size)) if j != of.place]
 
 
-def _nearest(orbit: BeamOrbit, expected: FloatArray) -> FloatArray:
+def _nearest(orbit: BladeOrbit, expected: FloatArray) -> FloatArray:
     turns = _turns(orbit, expected.size)
     above = np.round(expected - turns) + turns
     below = np.round(expected + turns) - turns
@@ -81,14 +82,14 @@ def _nearest(orbit: BeamOrbit, expected: FloatArray) -> FloatArray:
     return np.where(nearer, above, below)
 
 
-def _turns(orbit: BeamOrbit, count: int) -> FloatArray:
+def _turns(orbit: BladeOrbit, count: int) -> FloatArray:
     """Return how far each mode's multiplier is from 1, in turns, 0 to ½, without the own mode."""
     found = floquet_multipliers(orbit, modes=count + 1)
     # Two for each mode, after the orbit's own.
     return np.asarray(np.abs(np.angle(found.values[2::2])) / (2.0 * np.pi))
 
 
-def resonances_along(of: ModePath, orbits: Sequence[BeamOrbit]) -> list[Resonance]:
+def resonances_along(of: ModePath, orbits: Sequence[BladeOrbit]) -> list[Resonance]:
     """Return the internal resonances between successive orbits."""
     others, ratios = frequency_ratios(of, orbits)
     met: list[Resonance] = []
@@ -107,12 +108,12 @@ def resonances_along(of: ModePath, orbits: Sequence[BeamOrbit]) -> list[Resonanc
     return sorted(met, key=lambda one: one.amplitude)
 
 
-def frequency_at(orbits: Sequence[BeamOrbit], amplitude: float) -> float:
+def frequency_at(orbits: Sequence[BladeOrbit], amplitude: float) -> float:
     """Return the frequency at an amplitude, by straight lines between ascending orbits."""
     return float(np.interp(amplitude, *np.array([(o.amplitude, o.frequency) for o in orbits]).T))
 
 
-def _pole(orbits: Sequence[BeamOrbit], k: int) -> float | None:
+def _pole(orbits: Sequence[BladeOrbit], k: int) -> float | None:
     """Return the amplitude at which harmonic k changes its sign through infinity, if it does.
 
     There the mode is in resonance; ratios are held back from the whole number beside it.
@@ -120,16 +121,16 @@ def _pole(orbits: Sequence[BeamOrbit], k: int) -> float | None:
     for last, orbit in pairwise(orbits):
         if k > min(last.harmonics, orbit.harmonics):
             continue
-        before, after = (o.gauge_sines[k - 1] / o.gauge_sines[0] for o in (last, orbit))
-        if before * after < 0.0 and min(abs(before), abs(after)) > _FELT:
-            share = (1.0 / before) / (1.0 / before - 1.0 / after)
+        before, after = (o.gauge_harmonics[k] / o.gauge_harmonics[1] for o in (last, orbit))
+        if (before * after.conj()).real < 0.0 and min(abs(before), abs(after)) > _FELT:
+            share = (1.0 / abs(before)) / (1.0 / abs(before) + 1.0 / abs(after))
             return float(last.amplitude + share * (orbit.amplitude - last.amplitude))
     return None
 
 
 def pinned(
-    at: Callable[[float], BeamOrbit], orbits: Sequence[BeamOrbit], resonance: Resonance
-) -> tuple[list[BeamOrbit], float]:
+    at: Callable[[float], BladeOrbit], orbits: Sequence[BladeOrbit], resonance: Resonance
+) -> tuple[list[BladeOrbit], float]:
     """Return more orbits next to a resonance, as near as they are found, and its amplitude.
 
     The harmonic's share without the resonance shifts the pole that two far orbits give.
@@ -138,7 +139,7 @@ def pinned(
     i = sum(orbit.amplitude < place for orbit in orbits)
     if not 0 < i < len(orbits):
         return [], place
-    (below, above), found = orbits[i - 1 : i + 1], list[BeamOrbit]()
+    (below, above), found = orbits[i - 1 : i + 1], list[BladeOrbit]()
     while (pole := _pole((below, above), k)) is not None:
         place, gap = pole, above.amplitude - below.amplitude
         if gap < _CLOSE:
@@ -148,20 +149,19 @@ def pinned(
             found.append(at(inside))
         except NoOrbitError:
             break
-        if found[-1].gauge_sines[k - 1] * below.gauge_sines[k - 1] > 0.0:
+        if (found[-1].gauge_harmonics[k] * below.gauge_harmonics[k].conj()).real > 0.0:
             below = found[-1]
         else:
             above = found[-1]
     return found, place
 
 
-def _drives(orbit: BeamOrbit, k: int) -> bool:
-    """Return whether the orbit has harmonic k at all: without Coriolis forces no even ones."""
-    coupled = orbit.system.rate * orbit.system.model.setting
-    return k % 2 == 1 or abs(coupled) > 1e-9
+def _drives(orbit: BladeOrbit, k: int) -> bool:
+    """Return whether the orbit has harmonic k at all: some have no even ones."""
+    return k % 2 == 1 or bool(orbit.system.model.skews(orbit.system.rate))
 
 
-def nearest_resonance(of: ModePath, orbits: Sequence[BeamOrbit]) -> str:
+def nearest_resonance(of: ModePath, orbits: Sequence[BladeOrbit]) -> str:
     """Return which harmonic is nearest to another mode at the last orbit: why a branch bends."""
     others, ratios = frequency_ratios(of, orbits)
     # Slower modes have no harmonic to meet.
@@ -174,7 +174,7 @@ def nearest_resonance(of: ModePath, orbits: Sequence[BeamOrbit]) -> str:
     )
 
 
-def outstanding(of: ModePath, orbit: BeamOrbit) -> list[int]:
+def outstanding(of: ModePath, orbit: BladeOrbit) -> list[int]:
     """Return the harmonics larger than the one before that may be near another mode."""
     others, sizes = of.modes[_others(of)], orbit.sizes
     return [
@@ -185,7 +185,7 @@ def outstanding(of: ModePath, orbit: BeamOrbit) -> list[int]:
     ]
 
 
-def warn_of_resonances(of: ModePath, orbits: Iterable[BeamOrbit]) -> None:
+def warn_of_resonances(of: ModePath, orbits: Iterable[BladeOrbit]) -> None:
     """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
     others = _others(of)
     suspects = [(orbit, ks) for orbit in orbits if (ks := outstanding(of, orbit))]
@@ -209,5 +209,5 @@ def warn_of_resonances(of: ModePath, orbits: Iterable[BeamOrbit]) -> None:
                 f"internal resonance: from a = {orbit.amplitude:g} on, harmonic {k} of the orbit "
                 f"of {of.mode} ({k * orbit.frequency * of.blade.frequency_scale:.4f} rad/s) is "
                 f"{100.0 * distance / k:.1f} % from {j} (from Floquet exponents): "
-                f"{of.at_resonance}"
+                f"{FOLLOWED}"
             )

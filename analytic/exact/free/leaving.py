@@ -32,8 +32,7 @@ from ...methods.orbit import Orbit
 from ...methods.orbit_curve import At, OrbitCurve
 from ...plotting import axes_or_new, draw_response
 from ...settled import settled
-from ..continuum.planar_rotation import BeamOrbit
-from ..continuum.rotation import SpaceBlade, space_continuum, space_rotation
+from ..continuum.rotation import BladeOrbit, SteadyBlade, rotating_blade, space_continuum
 from .branch import Branch, SpecialPoint
 from .path import ModePath
 
@@ -137,18 +136,18 @@ class _Leaving:
     """Planar orbits, of so many harmonics, as such of one reversal in space, and what leaves."""
 
     of: ModePath
-    system: SpaceBlade
+    system: SteadyBlade
     periods: int
     harmonics: int
 
-    def orbit(self, amplitude: float) -> Orbit[SpaceBlade]:
+    def orbit(self, amplitude: float) -> BladeOrbit:
         """Return the planar orbit of an amplitude."""
         flat = self.of.path.at(amplitude).with_harmonics(self.harmonics)
         found = solve(_in_space(flat, self.system, self.periods), amplitude)
         # Near the birth round-off is enlarged in flap and torsion.
         return replace(found, coefficients=np.where(_across(self.system), 0.0, found.coefficients))
 
-    def block(self, orbit: Orbit[SpaceBlade]) -> tuple[FloatArray, NDArray[np.intp]]:
+    def block(self, orbit: BladeOrbit) -> tuple[FloatArray, NDArray[np.intp]]:
         """Return the symmetric block of flap and torsion, and the places of its unknowns.
 
         Of two periods only odd harmonics belong to it: others leave after one.
@@ -180,13 +179,13 @@ class _Leaving:
         return float(optimize.brentq(value, low, high, xtol=_LOCATED * high))
 
 
-def _across(system: SpaceBlade) -> NDArray[np.bool_]:
+def _across(system: SteadyBlade) -> NDArray[np.bool_]:
     """Return True for flap and torsion, which both reversals together turn around, (n,)."""
-    own = system.model.functions
-    return own.odd_by(mirror=True) ^ own.odd_by(mirror=False)
+    across: NDArray[np.bool_] = system.model.blocks[1]
+    return across
 
 
-def _in_space(flat: BeamOrbit, system: SpaceBlade, periods: int) -> Orbit[SpaceBlade]:
+def _in_space(flat: BladeOrbit, system: SteadyBlade, periods: int) -> BladeOrbit:
     """Return a planar orbit as one in space, once or twice around."""
     planar, own, H = flat.system.model, system.model.functions, flat.harmonics
     coefficients = np.zeros((2 * periods * H + 1, system.size))
@@ -211,7 +210,7 @@ def leaving_branch(
     """Return the branch that leaves the planar orbits, as `Backbone.leaving` says."""
     require_out_of_plane(of.blade, of.theory)
     model = space_continuum(of.blade, of.theory, of.path.at(high).system.model.bending)
-    flat = space_rotation(of.blade, of.omega, model)
+    flat = rotating_blade(of.blade, of.omega, model)
     systems = [replace(flat, mirror=mirror) for mirror in (False, True)]
 
     def births() -> Iterator[tuple[float, _Leaving]]:
@@ -252,9 +251,7 @@ def leaving_branch(
     )
 
 
-def _followed(
-    leaving: _Leaving, birth: Orbit[SpaceBlade], points: int
-) -> tuple[list[Orbit[SpaceBlade]], str]:
+def _followed(leaving: _Leaving, birth: BladeOrbit, points: int) -> tuple[list[BladeOrbit], str]:
     """Return the orbits of the branch in order, and why it ends."""
     block, own = leaving.block(birth)
     values, vectors = np.linalg.eigh(block)
@@ -277,7 +274,7 @@ def _followed(
     return found, "followed no farther"
 
 
-def _apart(orbit: Orbit[SpaceBlade]) -> FloatArray:
+def _apart(orbit: BladeOrbit) -> FloatArray:
     """Return the lowest harmonics of flap and torsion."""
     kept = orbit.with_harmonics(6).coefficients[:, _across(orbit.system)]
     return np.asarray(kept[:, :6].ravel())

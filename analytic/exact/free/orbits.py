@@ -15,9 +15,9 @@ from ...input_checks import finite_array, finite_number, finite_values
 from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
-from ..continuum.planar_rotation import BeamOrbit
+from ..continuum.rotation import BladeOrbit
 from .branch import OrbitSet
-from .internal_resonance import nearest_resonance, outstanding, warn_of_resonances
+from .internal_resonance import FOLLOWED, nearest_resonance, outstanding, warn_of_resonances
 from .path import AmplitudeNotReachedError, ModePath
 
 if TYPE_CHECKING:
@@ -145,9 +145,9 @@ def orbits_of(of: ModePath, amplitudes: ArrayLike) -> Orbits:
     return orbits
 
 
-def _found(of: ModePath, ascending: FloatArray) -> tuple[dict[float, BeamOrbit], str]:
+def _found(of: ModePath, ascending: FloatArray) -> tuple[dict[float, BladeOrbit], str]:
     """Return the orbits found by their amplitudes, and what to say of the first that was not."""
-    found: dict[float, BeamOrbit] = {}
+    found: dict[float, BladeOrbit] = {}
     refused = ""
     for a in ascending.tolist():
         try:
@@ -159,7 +159,7 @@ def _found(of: ModePath, ascending: FloatArray) -> tuple[dict[float, BeamOrbit],
     return found, refused
 
 
-def _confirmed(of: ModePath, found: dict[float, BeamOrbit]) -> dict[float, BeamOrbit]:
+def _confirmed(of: ModePath, found: dict[float, BladeOrbit]) -> dict[float, BladeOrbit]:
     """Return the orbits; of those near a resonance, where several have one amplitude, confirmed.
 
     The branch is computed again on more functions, which may lead into another orbit, until that
@@ -195,10 +195,10 @@ def _why(of: ModePath, a: float) -> str:
     nearest = nearest_resonance(of, below)
     if below[-1] is nodes[-1]:
         return f"{nearest}; ask for smaller amplitudes"
-    return f"{nearest}; ask for amplitudes beyond it: {of.at_resonance}"
+    return f"{nearest}; ask for amplitudes beyond it, or {FOLLOWED}"
 
 
-def _packed(of: ModePath, orbits: list[BeamOrbit]) -> Orbits:
+def _packed(of: ModePath, orbits: list[BladeOrbit]) -> Orbits:
     """Return the orbits as a value."""
     softening, error = of.softening()
     count = max(orbit.harmonics for orbit in orbits)

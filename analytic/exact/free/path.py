@@ -21,20 +21,15 @@ from ...methods.harmonic_balance import LastTangent, solve
 from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
-from ..continuum.planar_rotation import SteadyBeam, solve_modes
-from ..continuum.rotation import rotating_blade
-from ..linear.modes import names_in_plane
-from ..linear.space_modes import orbit_modes
+from ...warning import PartialError
+from ..continuum.rotation import Model, SteadyBlade, rotating_blade
+from ..linear.families import modes_of, orbit_shapes
 
 _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next
 
 
-class AmplitudeNotReachedError(RuntimeError):
-    """An amplitude was not reached; `orbits` are the Orbits below it, or None."""
-
-    def __init__(self, message: str, orbits: Any = None) -> None:
-        super().__init__(message)
-        self.orbits = orbits
+class AmplitudeNotReachedError(PartialError):
+    """An amplitude was not reached; its `part` are the Orbits below, or None."""
 
 
 def place_of(mode: str, names: Sequence[str]) -> int:
@@ -55,20 +50,13 @@ class ModePath:
     omega: float
     mode: str = "lag 1"
     theory: Theory = BERNOULLI_EULER
-    model: Any = field(repr=False)
+    model: Model = field(repr=False)
     care: Care = field(default_factory=lambda: THOROUGH, repr=False)
 
     @property
     def name(self) -> str:
         """Its name in a sentence."""
         return f"{self.mode} at omega = {self.omega:g} rad/s"
-
-    @property
-    def at_resonance(self) -> str:
-        """Advice where several orbits may have one amplitude."""
-        if self.model.in_space:
-            return "several orbits may have one amplitude there"
-        return "use backbone(...).branch to follow the branches"
 
     @property
     def omega_n(self) -> float:
@@ -91,26 +79,18 @@ class ModePath:
         return self.names.index(self.mode)
 
     @property
-    def path(self) -> Path[SteadyBeam]:
+    def path(self) -> Path[SteadyBlade]:
         """Orbits by their amplitude, computed as far as they are needed."""
         return self._begun[2]
-
-    def _solved(self, steady: Any) -> tuple[Any, FloatArray, Any, tuple[str, ...]]:
-        """Return the system; frequencies, shapes with odd coordinates in the sine, and names."""
-        if self.model.in_space:
-            return orbit_modes(steady, self.mode.split()[0])
-        modes = solve_modes(steady)
-        return steady, modes.frequencies, modes.coordinates, names_in_plane(steady, modes)
 
     def softening(self) -> tuple[float, float]:
         """Return λ_ω, extrapolated from the smallest orbits, and what the last of them changed.
 
-        From two; in space, where it changes fast with the amplitude near a pole, as that of lag
-        that meets twice the flap, from three.
+        From two, or three, as the discretization has it.
         """
         near, far = self._softening(self.path.seed), self._softening(self.path.double)
         by_two = (4.0 * near - far) / 3.0
-        if not self.model.in_space:
+        if self.model.softening_orbits == 2:
             return by_two, abs(near - far) / 3.0
         third = self._softening(self.path.at(3.0 * self.path.seed.amplitude))
         by_three = 1.5 * near - 0.6 * far + 0.1 * third
@@ -121,15 +101,17 @@ class ModePath:
         return float((1.0 - orbit.frequency / linear) / orbit.amplitude**2)
 
     @cached_property
-    def _begun(self) -> tuple[FloatArray, tuple[str, ...], Path[SteadyBeam]]:
+    def _begun(self) -> tuple[FloatArray, tuple[str, ...], Path[SteadyBlade]]:
         """The modes and the path, with as many functions as its smallest orbits need."""
-        steady = rotating_blade(self.blade, self.omega, self.model)
-        number = int(self.mode.split()[1])
+        family, number = self.mode.split()[0], int(self.mode.split()[1])
+        gauge = family if family in self.model.gauges else self.model.gauges[0]
+        steady = rotating_blade(self.blade, self.omega, self.model, gauge)
         small, near = 0.02 / number**2, "2 or 3 times its frequency may be that of another mode"
         while True:
-            (steady, frequencies, shapes, names), tangent = self._solved(steady), LastTangent()
-            place = place_of(self.mode, names)
-            shape, linear = shapes[place], frequencies[place]
+            modes, tangent = modes_of(self.blade, self.omega, self.theory, steady), LastTangent()
+            place = place_of(self.mode, modes.names)
+            frequencies = modes.frequencies / self.blade.frequency_scale
+            shape, linear = orbit_shapes(modes)[place], frequencies[place]
             try:
                 seed = solve(linear_orbit(steady, shape, float(linear), small), small, tangent)
                 double = solve(seed.scaled(2.0 * small), 2.0 * small, tangent)
@@ -141,8 +123,8 @@ class ModePath:
                         seed=seed, double=double, longest=_LONGEST_STEP,
                         care=self.care, tangent=tangent,
                     )  # fmt: skip
-                    count = max(steady.functions // 2, place + 1)
-                    return frequencies[:count], names[:count], path
+                    count = max(steady.model.resolved, place + 1)
+                    return frequencies[:count], modes.names[:count], path
                 slow = double.truncation > 0.5 * double.residual
                 reason = (
                     f"{double.harmonics} harmonics leave a residual of {double.truncation:.1e}; "

@@ -20,8 +20,8 @@ from ...input_checks import finite_values, require_ascending, rotation_speed, wh
 from ...plotting import apart, axes_or_new, cycled, free_place
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from .families import Family, LinearModes
 from .modes import linear_modes, modes_on
-from .space_modes import Family, LinearModes
 
 if TYPE_CHECKING:
     from ...plotting import Axes

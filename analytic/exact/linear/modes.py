@@ -7,36 +7,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import ComplexArray, FloatArray
+from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm, with_torsion
 from ...input_checks import rotation_speed, shown, whole_number
 from ...methods.system import inverse_eigenvalues
-from ...settled import refined, settled
+from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
-from ..continuum.planar import Continuum
-from ..continuum.planar_rotation import (
-    MOST_FUNCTIONS,
-    Modes,
-    SteadyBeam,
-    resolved_model,
-    solve_modes,
-    steady_rotation,
+from ..continuum.planar import MOST_FUNCTIONS
+from ..continuum.rotation import (
+    FUNCTIONS,
+    Model,
+    continuum_of,
+    finer_blades,
+    leaves_plane,
+    rotating_blade,
 )
-from ..continuum.rotation import leaves_plane, lives_in_space, rotating_blade
-from ..continuum.space import SpaceContinuum
-from .space_modes import (
-    FAMILIES,
-    Family,
-    LinearModes,
-    blocks_of,
-    mode_names,
-    space_modes,
-    space_modes_on,
-)
+from .families import FAMILIES, Family, LinearModes, modes_of
 
-_SETTLED = 1e-9  # relative change of the frequencies from one basis to the next, far above noise
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
 
 
@@ -94,9 +83,10 @@ def linear_modes(
     require_family(only)
     section = blade.section
     unknown = section.out_of_plane is None and not section.knows_space
-    if not lives_in_space(blade, theory) and (only in ("lag", "axial") or unknown):
-        return _modes_in_plane(blade, omega, count, theory, functions, only)
-    return space_modes(_known_in_space(blade, only), omega, count, theory, only)
+    leaves = only not in ("lag", "axial") and not unknown
+    if leaves:
+        blade = _known_in_space(blade, only)
+    return _settled_modes(blade, omega, count, theory, functions, only, leaves=leaves)
 
 
 def driven_modes(
@@ -112,23 +102,30 @@ def driven_modes(
     Those of the plane of bending of a planar blade, and all of others.
     """
     warn_if_rpm(blade, rotation_speed(omega))
-    if lives_in_space(blade, theory):
-        return space_modes(blade, omega, count, theory)
-    return _modes_in_plane(blade, omega, count, theory, functions, None)
+    return _settled_modes(blade, omega, count, theory, functions)
 
 
-def _modes_in_plane(
-    blade: Blade, omega: float, count: int, theory: Theory, functions: int, only: Family | None
+def _settled_modes(
+    blade: Blade,
+    omega: float,
+    count: int,
+    theory: Theory,
+    functions: int,
+    only: Family | None = None,
+    *,
+    leaves: bool = False,
 ) -> LinearModes:
     # Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
-    first = steady_rotation(blade, omega, resolved_model(blade, count, theory, functions))
+    each = max(FUNCTIONS, 2 * count + 4)
+    model = continuum_of(blade, theory, functions, each, mode=count, leaves=leaves)
+    first = rotating_blade(blade, omega, model)
     modes, _, error = settled(
-        lambda steady: modes_on(steady.model, blade, omega, count, theory, only),
-        refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
-        _SETTLED,
+        lambda steady: modes_of(blade, omega, theory, steady).lowest(count, only),
+        finer_blades(first),
+        model.tolerance,
         lambda modes: np.log(modes.frequencies),
         f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
-        "rotate slower",
+        "ask for fewer modes, or rotate slower",
     )
     return replace(modes, error=error)
 
@@ -167,18 +164,8 @@ def mode_name(blade: Blade, omega: float, mode: object, theory: Theory) -> str:
     return f"{family} {int(number_of)}"
 
 
-def names_in_plane(steady: SteadyBeam, modes: Modes) -> tuple[str, ...]:
-    """Return the names of modes in the plane of bending."""
-    return mode_names(steady.model.shares(steady.equilibrium, _phased(steady, modes)))
-
-
-def _phased(steady: SteadyBeam, modes: Modes) -> ComplexArray:
-    """Return the shapes with their phases: θ and γ go with the sine, e with the cosine."""
-    return np.asarray(modes.coordinates * np.where(steady.odd, 1.0, 1.0j))
-
-
 def modes_on(
-    model: Continuum | SpaceContinuum,
+    model: Model,
     blade: Blade,
     omega: float,
     count: int,
@@ -189,25 +176,11 @@ def modes_on(
 ) -> LinearModes:
     """Return the modes on a discretization known to resolve them, unchecked.
 
-    In space the steady state is sought from that of modes on it at a speed nearby.
+    The steady state is sought from that of modes on it at a speed nearby.
     """
-    if isinstance(model, SpaceContinuum):
-        return space_modes_on(model, blade, omega, count, only, near=near)
-    steady = steady_rotation(blade, omega, model)
-    solved = solve_modes(steady)
-    shapes = _phased(steady, solved)
-    modes = LinearModes(
-        blade=blade,
-        omega=omega,
-        theory=theory,
-        frequencies=solved.frequencies * blade.frequency_scale,
-        shares=model.shares(steady.equilibrium, shapes),
-        error=math.nan,
-        model=model,
-        coordinates=shapes,
-        _steady=steady.equilibrium,
-    )
-    return modes.lowest(count, only)
+    at = None if near is None else near.steady.equilibrium
+    steady = rotating_blade(blade, omega, model, near=at)
+    return modes_of(blade, omega, theory, steady).lowest(count, only)
 
 
 @one_thread
@@ -240,11 +213,9 @@ def damping_ratios(
     """
     omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
     modes = linear_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
-    steady = rotating_blade(blade, omega, modes.model)
-    at_rest = np.zeros((1, steady.size))
-    tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)
+    tangent = modes.steady.linearized
     ratios, sizes = np.empty(count), modes.frequencies / blade.frequency_scale
-    for block in blocks_of(steady):
+    for block in modes.steady.blocks:
         parts = (part[0][np.ix_(block, block)] for part in tangent[:0:-1])
         inverse = inverse_eigenvalues(*parts)
         inverse = inverse[inverse.imag < 0.0]

@@ -1,4 +1,4 @@
-"""The steady state of a blade in space, in rotation or under a load at its tip."""
+"""The steady state of a blade, in rotation or under a load at its tip, and states beside it."""
 
 from __future__ import annotations
 
@@ -16,12 +16,13 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..continuum.rotation import (
     FUNCTIONS,
-    SpaceBlade,
+    SteadyBlade,
+    continuum_of,
     finer_blades,
+    rotating_blade,
     space_continuum,
-    space_rotation,
 )
-from ..continuum.state import SectionLoads, in_newtons
+from ..continuum.state import BladeState, SectionLoads, flap_of_kick, in_newtons, state_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +50,7 @@ class SteadyState:
     tip: FloatArray
     twist: float
     error: float
-    _steady: SpaceBlade
+    _steady: SteadyBlade
 
     def axis(self, x: ArrayLike) -> FloatArray:
         """Return the places of the points `x` [m] of the line, as `tip`, (points, 3)."""
@@ -126,7 +127,7 @@ def steady_state(
         for name, value, unit in (("force", force, "N"), ("moment", moment, "N m"))
     )
     gravity = finite_number("gravity", gravity, "m/s^2")
-    first = space_rotation(blade, omega, space_continuum(blade, theory, FUNCTIONS))
+    first = rotating_blade(blade, omega, space_continuum(blade, theory, FUNCTIONS))
     first = replace(first, lift=-gravity / (blade.length * blade.frequency_scale**2))
     if any((*force, *moment)):
         EI, L = blade.bending_stiffness, blade.length
@@ -135,7 +136,7 @@ def steady_state(
     _, steady, error = settled(
         lambda one: one,
         finer_blades(first),
-        first.model.functions.blade.tolerance,
+        first.model.tolerance,
         lambda one: one.tip,
         f"the tip's place over the length at omega = {omega:g} rad/s",
         "rotate slower, or load it less",
@@ -144,4 +145,22 @@ def steady_state(
         blade=blade, omega=omega, theory=theory, force=force, moment=moment, gravity=gravity,
         tip=blade.length * steady.tip, error=error, _steady=steady,
         twist=float(steady.model.tip_turn(steady.equilibrium[None])[0]),
+    )  # fmt: skip
+
+
+def stretched_state(blade: Blade, omega: float, x: ArrayLike) -> BladeState:
+    """Return the state at `x` [m] of a blade that turns at `omega` [rad/s] and does not swing."""
+    model = continuum_of(blade, BERNOULLI_EULER, 20, FUNCTIONS, axial=10)
+    steady = rotating_blade(blade, omega, model)
+    return state_of(blade, model, steady.equilibrium, np.zeros(steady.size), x)
+
+
+def kicked_state(blade: Blade, speed: float, x: ArrayLike) -> BladeState:
+    """Return the state at `x` [m] of a straight blade whose tip is kicked out of the plane."""
+    start = stretched_state(blade, 0.0, x)
+    along, up = np.asarray(x) / blade.length, np.eye(3)[2]
+    tilting = np.multiply.outer(speed / blade.length * flap_of_kick(along, 1), up)
+    return replace(
+        start, velocity=np.multiply.outer(speed * flap_of_kick(along), up), slope_rate=tilting,
+        spin=np.cross(start.slope, tilting),
     )  # fmt: skip

@@ -16,8 +16,8 @@ from ...methods.floquet import flow, normal_modes, reversible_monodromy
 from ...methods.orbit import Orbit
 from ...settled import settled
 from ...theory import BERNOULLI_EULER, Theory
-from ..continuum.planar_rotation import SteadyBeam
-from .out_of_plane import OutOfPlaneMotion, Space, with_points_for
+from ..continuum.rotation import SteadyBlade
+from .out_of_plane import FlapTorsion, OutOfPlaneMotion, with_points_for
 
 GROWTH = 1e-5
 """Growth over a period above which a motion is unstable, above the round-off of double ones."""
@@ -66,7 +66,7 @@ def grown_and_checked(
     functions = settled_functions(blade, steady, theory)
     if orbit.system.driven:
         # A drive may be slower than the blade, whose modes are resolved as about its own orbits.
-        slowest = _steady_modes(_space(blade, functions, theory), steady)[1][0]
+        slowest = _steady_modes(_flap_torsion(blade, functions, theory), steady)[1][0]
         steps *= max(1, int(np.ceil(slowest / orbit.frequency)))
     rough = grown(blade, orbit, functions, steps, theory, ratio)
     if not confirm:
@@ -94,16 +94,16 @@ def grown(
 
     The blade's own damping and the damping `ratio` of its modes resist it.
     """
-    space = _space(blade, functions, theory)
-    orbit = orbit.on(with_points_for(orbit.system, space.functions))
+    across = _flap_torsion(blade, functions, theory)
+    orbit = orbit.on(with_points_for(orbit.system, across.functions))
     steady = orbit.system.unloaded(orbit.frequency)
-    motion = OutOfPlaneMotion(orbit, space, _modal(space, steady, ratio) if ratio else None)
+    motion = OutOfPlaneMotion(orbit, across, _modal(across, steady, ratio) if ratio else None)
     if motion.reversible:
         matrix, exponent = reversible_monodromy(motion, motion.signs, steps)
     else:
         matrix, exponent = flow(motion, steps)
     values, vectors = np.linalg.eig(matrix)
-    frequencies, names, shares = _shares(space, steady, vectors)
+    frequencies, names, shares = _shares(across, steady, vectors)
     place = np.arange(len(shares)) @ shares
     sizes = np.log(np.maximum(np.abs(values), 1e-300)) + exponent
     # What oscillates too fast for the steps comes out at a wrong place and may meet others there.
@@ -121,29 +121,31 @@ def grown(
     return growth._replace(kind=kind, modes=modes)
 
 
-_space = lru_cache(maxsize=32)(Space)
+_flap_torsion = lru_cache(maxsize=32)(FlapTorsion)
 
 
-def settled_functions(blade: Blade, planar: SteadyBeam, theory: Theory) -> int:
+def settled_functions(blade: Blade, planar: SteadyBlade, theory: Theory) -> int:
     """Return how many functions settle the flap modes, which rotation bends in a layer."""
 
-    def flap(space: Space) -> FloatArray:
-        return np.log(_steady_modes(space, with_points_for(planar, space.functions))[1][:4])
+    def flap(across: FlapTorsion) -> FloatArray:
+        return np.log(_steady_modes(across, with_points_for(planar, across.functions))[1][:4])
 
-    space, *_ = settled(
-        lambda count: _space(blade, count, theory), iter(_SIZES), _SETTLED, flap,
+    across, *_ = settled(
+        lambda count: _flap_torsion(blade, count, theory), iter(_SIZES), _SETTLED, flap,
         f"the flap frequencies at w_bar = {planar.rate:.4g}", "rotate slower",
     )  # fmt: skip
-    return space.functions
+    return across.functions
 
 
-def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatArray, list[str]]:
+def _steady_modes(
+    across: FlapTorsion, planar: SteadyBlade
+) -> tuple[FloatArray, FloatArray, list[str]]:
     """Return normal coordinates (modes, n), frequencies and names, the slowest first."""
     at_rest = np.zeros((1, planar.size))
-    K = space.stiffness(planar, planar.equilibrium[None], at_rest, at_rest)
-    rows, frequencies = normal_modes(K[0], space.mass)
-    flap = np.abs(rows[:, : space.functions]).max(axis=1)
-    twists = np.abs(rows[:, space.functions :]).max(axis=1, initial=0.0) > flap
+    K = across.stiffness(planar, planar.equilibrium[None], at_rest, at_rest)
+    rows, frequencies = normal_modes(K[0], across.mass)
+    flap = np.abs(rows[:, : across.functions]).max(axis=1)
+    twists = np.abs(rows[:, across.functions :]).max(axis=1, initial=0.0) > flap
     names = [
         f"torsion {before}" if torsion else f"flap {k - before}"
         for k, (torsion, before) in enumerate(zip(twists, np.cumsum(twists), strict=True), start=1)
@@ -151,21 +153,21 @@ def _steady_modes(space: Space, planar: SteadyBeam) -> tuple[FloatArray, FloatAr
     return rows, frequencies, names
 
 
-def _modal(space: Space, planar: SteadyBeam, ratio: float) -> FloatArray:
+def _modal(across: FlapTorsion, planar: SteadyBlade, ratio: float) -> FloatArray:
     """Return the damping 2ζν of all modes ν of the straight blade in rotation, (n, n)."""
-    rows, frequencies, _ = _steady_modes(space, planar)
+    rows, frequencies, _ = _steady_modes(across, planar)
     return np.asarray(rows.T @ (2.0 * ratio * frequencies[:, None] * rows))
 
 
 def _shares(
-    space: Space, planar: SteadyBeam, states: ComplexArray
+    across: FlapTorsion, planar: SteadyBlade, states: ComplexArray
 ) -> tuple[FloatArray, list[str], FloatArray]:
     """Return the modes' frequencies and names, the slowest first, and their shares of the energy.
 
     The shares are (modes, states).
     """
-    rows, frequencies, names = _steady_modes(space, planar)
-    n = space.size
+    rows, frequencies, names = _steady_modes(across, planar)
+    n = across.size
     energy = np.abs(frequencies[:, None] * (rows @ states[:n])) ** 2
     energy += np.abs(rows @ states[n:]) ** 2
     return frequencies, names, energy / energy.sum(axis=0)

@@ -35,7 +35,7 @@ from ...methods.system import Tangent
 from ...shape_functions import shape_functions
 from ...theory import BERNOULLI_EULER, Theory
 from ..continuum.planar import Continuum
-from ..continuum.planar_rotation import SteadyBeam
+from ..continuum.rotation import SteadyBlade
 from ..continuum.unit import space_unit, trapeze_of
 
 
@@ -60,7 +60,7 @@ class _Bases(NamedTuple):
     upto: FloatArray
 
 
-class Space:
+class FlapTorsion:
     """Galerkin discretization of L2 by at least so many shape functions for w and for φ each.
 
     The theory tells whether there are the second line of L2, and inertia of the twist, as in space.
@@ -153,7 +153,7 @@ class Space:
         )
 
     def resistance(
-        self, planar: SteadyBeam, q: FloatArray, q_dot: FloatArray
+        self, planar: SteadyBlade, q: FloatArray, q_dot: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each."""
         model, (viscosity, _, air) = planar.model, self.unit.damping
@@ -212,7 +212,7 @@ class OutOfPlaneMotion:
     """
 
     orbit: Orbit[Any]
-    space: Space
+    across: FlapTorsion
     modal: FloatArray | None = None
 
     @property
@@ -222,24 +222,24 @@ class OutOfPlaneMotion:
 
     def tangent(self, phase: FloatArray) -> Tangent:
         """Return the coefficients of the Hill equation at the phases (phases,)."""
-        space, planar, state = self.space, self.orbit.system, self.orbit.coordinates(phase)
-        K = space.stiffness(planar, *state, *self.orbit.drive(phase))
+        across, planar, state = self.across, self.orbit.system, self.orbit.coordinates(phase)
+        K = across.stiffness(planar, *state, *self.orbit.drive(phase))
         C = np.zeros_like(K) if self.modal is None else np.broadcast_to(self.modal, K.shape)
-        if any(space.unit.damping):
-            own, more = space.resistance(planar, *state[:2])
+        if any(across.unit.damping):
+            own, more = across.resistance(planar, *state[:2])
             K, C = K + more, C + own
-        return Tangent(np.zeros(K.shape[:2]), K, C, np.broadcast_to(space.mass, K.shape))
+        return Tangent(np.zeros(K.shape[:2]), K, C, np.broadcast_to(across.mass, K.shape))
 
     @property
     def reversible(self) -> bool:
         """Whether the orbit is free and nothing damps what leaves its plane."""
         driven = self.orbit.system.driven
-        return self.modal is None and not driven and not any(self.space.unit.damping)
+        return self.modal is None and not driven and not any(self.across.unit.damping)
 
     @property
     def signs(self) -> FloatArray:
         """Signs of the coordinates under time reversal: the twist turns with the curvature."""
-        return np.where(np.arange(self.space.size) < self.space.functions, 1.0, -1.0)
+        return np.where(np.arange(self.across.size) < self.across.functions, 1.0, -1.0)
 
     def constants(self) -> None:
         """Return None: nothing is known beforehand of its multipliers."""

@@ -38,9 +38,8 @@ def history(case: Case, n: int, h: float):
     if not case.is_spun_up:
         x = np.linspace(0.0, case.blade.length, n + 1)
         s = case.orbit.state(0, x)
-        places = [x + s.u, s.v, 1.0 + s.u_slope, s.v_slope]
-        rates = [s.u_dot, s.v_dot, s.u_slope_dot, s.v_slope_dot]
-        start = "\n".join(map(str, np.column_stack(places + rates).ravel().tolist()))
+        parts = [of[:, :2] for of in (s.place, s.slope, s.velocity, s.slope_rate)]
+        start = "\n".join(map(str, np.hstack(parts).ravel().tolist()))
     of = "orbit" if start else "history"
     return rod(case, n, of, h, round(SPACING / h), round(case.duration / h), start=start)
 

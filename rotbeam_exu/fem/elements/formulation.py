@@ -177,10 +177,10 @@ class Formulation(Described, abstract=True):
 
         return at
 
-    def coordinates(self, x: FloatArray, state: Any) -> tuple[FloatArray, FloatArray]:
-        """Return coordinates and rates (nodes, n) of a beam in `state`, a BeamState.
+    def coordinates(self, state: Any) -> tuple[FloatArray, FloatArray]:
+        """Return coordinates and rates (nodes, n) of a blade in `state`, a BladeState.
 
-        Its nodes are at `x` [m] from the axis.
+        Its places are those of the nodes from the axis.
         """
         raise NotImplementedError
 

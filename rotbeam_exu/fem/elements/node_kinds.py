@@ -6,7 +6,6 @@ The clamp turns about z, the normal of the plane of rotation.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -15,7 +14,7 @@ from analytic import Blade
 from analytic.arrays import FloatArray
 from analytic.blade_checks import require_blade
 from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
-from analytic.exact.continuum.state import BeamState
+from analytic.exact.continuum.state import BladeState
 from analytic.lazily import spatial
 
 from ..mesh import cells, shapes
@@ -44,13 +43,11 @@ class SlopeNodes(Formulation, abstract=True):
     clamped: ClassVar[tuple[int, ...]] = (3,)
     joint: ClassVar[tuple[int, ...]] = (1, 1, 0, 0, 0, 1)
 
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and slopes, (x + u, v, 1 + u', v') in the plane, and their rates."""
-        axes = "uvw"[: self.dimensions]
-        values = _columns(x, state, [*axes, *(f"{one}_slope" for one in axes)])
-        values[:, 0] += x
-        values[:, self.dimensions] += 1.0
-        return values, _columns(x, state, [f"{a}{of}_dot" for of in ("", "_slope") for a in axes])
+    def coordinates(self, state: BladeState) -> tuple[FloatArray, FloatArray]:
+        """Places and slopes, and their rates."""
+        d = self.dimensions
+        values = np.hstack((state.place[:, :d], state.slope[:, :d]))
+        return values, np.hstack((state.velocity[:, :d], state.slope_rate[:, :d]))
 
     def spread(self, places: FloatArray, elements: int, s: FloatArray) -> FloatArray:
         """Return the matrix to r and r' at `s`: cubic between two nodes, (places, n, nodes, n)."""
@@ -96,13 +93,12 @@ class SectionSlopeNodes(Formulation, abstract=True):
     angles: ClassVar[FloatArray] = np.zeros(4)
     clamped: ClassVar[tuple[int, ...]] = (2, 3)
 
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and r_y = (-sin φ, cos φ), and their rates."""
-        angle, rate = _section_angle(state)
-        sine, cosine = np.sin(angle), np.cos(angle)
-        values = (x + state.u, state.v, -sine, cosine)
-        rates = (state.u_dot, state.v_dot, -rate * cosine, -rate * sine)
-        return np.stack(values, axis=1), np.stack(rates, axis=1)
+    def coordinates(self, state: BladeState) -> tuple[FloatArray, FloatArray]:
+        """Places and r_y, the second axis of the section, and their rates."""
+        across = state.section[:, :, 1]
+        rate = np.cross(state.spin, across)
+        values = np.hstack((state.place[:, :2], across[:, :2]))
+        return values, np.hstack((state.velocity[:, :2], rate[:, :2]))
 
 
 class AngleNodes(Formulation, abstract=True):
@@ -115,11 +111,11 @@ class AngleNodes(Formulation, abstract=True):
     clamped: ClassVar[tuple[int, ...]] = (2,)
     joint: ClassVar[tuple[int, ...]] = (1, 1, 0, 0, 0, 1)
 
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and the angle of the section, and their rates."""
-        angle, rate = _section_angle(state)
-        values, rates = (x + state.u, state.v, angle), (state.u_dot, state.v_dot, rate)
-        return np.stack(values, axis=1), np.stack(rates, axis=1)
+    def coordinates(self, state: BladeState) -> tuple[FloatArray, FloatArray]:
+        """Places and the angle of the section, and their rates."""
+        angle = np.arctan2(state.section[:, 1, 0], state.section[:, 0, 0])
+        values = np.column_stack((state.place[:, :2], angle))
+        return values, np.column_stack((state.velocity[:, :2], state.spin[:, 2]))
 
     def sections(self, coordinates: FloatArray) -> FloatArray:
         """Return the sections, turned by φ."""
@@ -164,26 +160,14 @@ class FrameNodes(Formulation, abstract=True):
         about = scalar * onto[:, 1:] - onto[:, :1] * vector + np.cross(vector, onto[:, 1:])
         return np.asarray(0.5 * about)
 
-    def coordinates(self, x: FloatArray, state: BeamState) -> tuple[FloatArray, FloatArray]:
-        """Positions and p of a section turned by φ in the plane and tilted out of it by β.
-
-        tan β = w'/|r'| of the planar r'.
-        """
-        slope = (1.0 + state.u_slope) + 1j * state.v_slope
-        rate = state.u_slope_dot + 1j * state.v_slope_dot
-        phi = np.angle(slope) - state.shear_angle
-        phi_dot = (rate / slope).imag - state.shear_angle_dot
-        tan = state.w_slope / np.abs(slope)
-        tan_dot = state.w_slope_dot / np.abs(slope) - tan * (rate / slope).real
-        beta, beta_dot = np.arctan(tan), tan_dot / (1.0 + tan**2)
-        c, s, C, S = (f(0.5 * a) for a in (phi, beta) for f in (np.cos, np.sin))
-        p = np.stack((c * C, s * S, -c * S, s * C), axis=1)
-        tilted = p[:, [2, 3, 0, 1]] * [1.0, 1.0, -1.0, -1.0]
-        p_dot = 0.5 * (phi_dot[:, None] * (p @ _HALF_TURN.T) + beta_dot[:, None] * tilted)
-        zero = np.zeros_like(x)
-        r = np.stack((x + state.u, state.v, state.w + zero), axis=1)
-        r_dot = np.stack((state.u_dot, state.v_dot, state.w_dot + zero), axis=1)
-        return np.concatenate((r, p), axis=1), np.concatenate((r_dot, p_dot), axis=1)
+    def coordinates(self, state: BladeState) -> tuple[FloatArray, FloatArray]:
+        """Places and p, and their rates, ṗ = ½ ω ∘ p."""
+        p = spatial.transform.Rotation.from_matrix(state.section).as_quat()[:, [3, 0, 1, 2]]
+        p *= np.where(p[:, :1] < 0.0, -1.0, 1.0)
+        scalar, vector = p[:, :1], p[:, 1:]
+        along = -np.sum(state.spin * vector, axis=1, keepdims=True)
+        p_dot = 0.5 * np.hstack((along, scalar * state.spin + np.cross(state.spin, vector)))
+        return np.hstack((state.place, p)), np.hstack((state.velocity, p_dot))
 
     def sections(self, coordinates: FloatArray) -> FloatArray:
         """Return the axes of the sections."""
@@ -216,18 +200,6 @@ def require_bare(element: Formulation, blade: Blade) -> None:
             f"{blade.unit.differences}: take "
             f"{'an element of the plane, or ' if blade.is_planar else ''}analytic.spin_up_response"
         )
-
-
-def _columns(x: FloatArray, state: BeamState, names: Sequence[str]) -> FloatArray:
-    """Return parts of a state at the nodes `x`, (nodes, names)."""
-    return np.stack([getattr(state, name) + np.zeros_like(x) for name in names], axis=1)
-
-
-def _section_angle(state: BeamState) -> tuple[FloatArray, FloatArray]:
-    """Return the angle [rad] of the section, (nodes,), and its rate [rad/s]."""
-    along, across = 1.0 + state.u_slope, state.v_slope
-    rate = (along * state.v_slope_dot - across * state.u_slope_dot) / (along**2 + across**2)
-    return np.arctan2(across, along) - state.shear_angle, rate - state.shear_angle_dot
 
 
 def directors(p: FloatArray) -> FloatArray:

@@ -8,6 +8,7 @@ import pytest
 from analytic import Beam, Damping, Theory, backbone, periodic_orbits
 from analytic.exact.free.internal_resonance import frequency_ratios
 from analytic.input_checks import RotbeamWarning
+from tests.beams import unit_beam
 
 
 def orbits(beam, omega, amplitudes, *, functions=8, **options):
@@ -72,7 +73,31 @@ def test_the_6_to_1_resonance_is_found_and_its_tongue_followed(branch):
     assert tongue[-1] < tongue.max() - 0.02
     assert "6:lag 2 at 0.64" in str(branch)
     state = branch.state(len(branch.amplitude) - 1, [8.0], phase=0.3)
-    assert np.isfinite(state.v).all()
+    assert np.isfinite(state.place).all()
+
+
+@pytest.mark.slow
+def test_a_twisted_blade_has_tongues_of_other_families():
+    """Flap at 1.5 rad/s has a fifth harmonic that meets flap 2, whose multiplier is 1 there."""
+    blade = unit_beam(1e-3).with_section_out_of_plane(0.3, 0.2).with_twist(0.3)
+    found = backbone(blade, 1.5, "flap 1").branch(up_to=0.2)
+    (met,) = found.resonances
+    assert (met.harmonic, met.mode) == (5, "flap 2")
+    assert met.amplitude == pytest.approx(0.186, abs=2e-3)
+    nearest = int(np.argmin(np.abs(found.amplitude - met.amplitude)))
+    assert np.abs(found.multipliers[nearest][2:] - 1.0).min() < 0.05
+    # In the tongue are other orbits of the same amplitudes, with far more of the harmonic.
+    tongue = np.flatnonzero(found.piece == 1)
+    inside = tongue[found.amplitude[tongue] < 0.16][0]
+    main = np.interp(found.amplitude[inside], *(
+        one[found.piece == 0] for one in (found.amplitude, found.frequency)
+    ))  # fmt: skip
+    assert main - found.frequency[inside] > 1e-3
+    orbit = found.nondimensional[inside]
+    assert orbit.residual < 1e-4
+    assert orbit.invariant_drift < 1e-7
+    fifth = np.abs(orbit.gauge_harmonics[5])
+    assert fifth > 10.0 * np.abs(found.nondimensional[0].gauge_harmonics[5])
 
 
 def test_pieces_leave_the_main_path_and_hold_orbits(branch):

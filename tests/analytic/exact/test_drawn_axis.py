@@ -10,13 +10,12 @@ from analytic import SpinUp, linear_modes, periodic_orbits, spin_up_response
 def test_axis_of_an_orbit_agrees_with_its_state(beam, omega):
     backbone = periodic_orbits(beam, omega, [0.3])
     points, phases = np.linspace(0.0, beam.length, 9), np.array([0.3, 2.0, 5.0])
-    x, y, z = np.moveaxis(backbone.axis(0, points, phases), -1, 0)
-    assert x.shape == (3, 9)
-    assert not z.any()
+    axis = backbone.axis(0, points, phases)
+    assert axis.shape == (3, 9, 3)
+    assert not axis[..., 2].any()
     for k, phase in enumerate(phases):
-        state = backbone.state(0, points, phase)
-        np.testing.assert_allclose(x[k], points + state.u, atol=1e-12)
-        np.testing.assert_allclose(y[k], state.v, atol=1e-12)
+        place = backbone.state(0, points, phase).place
+        np.testing.assert_allclose(axis[k], place, atol=1e-12)
 
 
 def test_axis_of_a_spin_up_is_the_beam(beam):
@@ -59,6 +58,6 @@ def test_beyond_the_ends_and_not_a_number(methods, method):
 
 
 def test_the_ends_themselves(methods):
-    assert methods["state"]([0.0, 8.0]).v[0] == 0.0
+    assert methods["state"]([0.0, 8.0]).place[0, 1] == 0.0
     round_off = np.nextafter(8.0, 9.0)
     assert methods["shapes"](round_off)[1] == pytest.approx(1.0)

@@ -62,7 +62,7 @@ def test_near_a_resonance_no_orbit_depends_on_the_functions():
                 blade, 8.0, [0.35, 0.4], theory=Theory(extension=False), functions=functions
             )
         except AmplitudeNotReachedError as beyond:
-            orbits = beyond.orbits
+            orbits = beyond.part
         assert orbits.frequency_error.max() < 1e-9
         found.append(orbits.frequency)
     assert found[0] == pytest.approx(found[1], rel=2e-9)
@@ -92,7 +92,7 @@ def test_small_orbit_is_the_linear_mode(beam):
     modes = linear_modes(beam, 6.0, 1)
     assert b.frequency[0] == pytest.approx(modes.frequencies[0], rel=1e-9)
     x = np.linspace(0.0, beam.length, 9)
-    moving = b.state(0, x, 0.5 * np.pi).v / (1e-4 * beam.length)
+    moving = b.state(0, x, 0.5 * np.pi).place[:, 1] / (1e-4 * beam.length)
     assert moving == pytest.approx(modes.shapes(x)[1, :, 0].real, abs=1e-6)
 
 
@@ -117,22 +117,28 @@ def test_orbit_response_and_state_tell_the_same(beam, wide):
     assert series == pytest.approx(x, abs=1e-9)
 
 
-def test_state_is_consistent_in_space_and_time(wide):
+@pytest.mark.parametrize("twist", [0.0, 0.5])
+def test_state_is_consistent_in_space_and_time(wide, twist):
+    """In the plane, and of a twisted blade that shears."""
     b = wide
+    if twist:
+        blade = b.blade.with_section_out_of_plane(0.3, 0.2).with_twist(twist)
+        b = periodic_orbits(blade, 4.0, [0.05], theory=Theory(shear=0.3))
     x, phase, h = np.linspace(0.0, 8.0, 9), 0.7, 1e-4
     here = b.state(0, x, phase)
     ahead, behind = (b.state(0, x, phase + s * h * b.frequency[0]) for s in (1.0, -1.0))
-    for name in ("u", "v", "u_slope", "v_slope"):
-        rate = (getattr(ahead, name) - getattr(behind, name)) / (2.0 * h)
-        assert getattr(here, f"{name}_dot") == pytest.approx(rate, abs=1e-6)
+    for name, rate in (("place", "velocity"), ("slope", "slope_rate")):
+        moved = (getattr(ahead, name) - getattr(behind, name)) / (2.0 * h)
+        assert getattr(here, rate) == pytest.approx(moved, abs=1e-6)
     inner = x[1:-1]
     after, before = b.state(0, inner + h, phase), b.state(0, inner - h, phase)
-    for name in ("u", "v"):
-        slope = (getattr(after, name) - getattr(before, name)) / (2.0 * h)
-        assert getattr(here, f"{name}_slope")[1:-1] == pytest.approx(slope, abs=1e-8)
+    assert here.slope[1:-1] == pytest.approx((after.place - before.place) / (2.0 * h), abs=1e-8)
+    # ω × the axes of a section are their rates.
+    turned = (ahead.section - behind.section) / (2.0 * h)
+    assert np.cross(here.spin[..., None], here.section, axis=1) == pytest.approx(turned, abs=1e-6)
     straight = b.state(0, x)
-    assert straight.v == pytest.approx(0.0, abs=1e-15)
-    assert straight.u[0] == straight.u_slope_dot[0] == 0.0
+    assert straight.place[:, 1] == pytest.approx(0.0, abs=1e-15)
+    assert straight.place[0, 0] == straight.slope_rate[0, 0] == 0.0
 
 
 def test_orbits_of_the_first_mode_are_stable(beam):
@@ -226,17 +232,17 @@ def test_orbits_found_are_attached(beam, monkeypatch):
     asked = [0.2, 0.6, 0.1, 0.2]
     with pytest.raises(AmplitudeNotReachedError, match=r"of 0\.6 was found") as caught:
         periodic_orbits(beam, 6.0, asked)
-    kept = caught.value.orbits
+    kept = caught.value.part
     whole = periodic_orbits(beam, 6.0, [0.2, 0.1])
     assert kept.amplitude.tolist() == [0.2, 0.1, 0.2]
     np.testing.assert_array_equal(kept.frequency, whole.frequency[[0, 1, 0]])
     assert isinstance(caught.value, RuntimeError)
     with pytest.raises(AmplitudeNotReachedError) as caught:
         periodic_orbits(beam, 6.0, [0.6])
-    assert caught.value.orbits is None
+    assert caught.value.part is None
 
 
 def test_an_orbit_lost_in_round_off_does_not_cost_the_larger(beam):
     with pytest.raises(AmplitudeNotReachedError, match="take linear_modes") as caught:
         periodic_orbits(beam, 6.0, [1e-14, 0.1])
-    assert caught.value.orbits.amplitude.tolist() == [0.1]
+    assert caught.value.part.amplitude.tolist() == [0.1]

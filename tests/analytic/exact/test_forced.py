@@ -146,7 +146,7 @@ def test_what_a_response_says_of_itself(loaded):
     series = sum((h * np.exp(1j * k * phase)).real for k, h in enumerate(loaded.harmonics[i]))
     assert series == pytest.approx(q, abs=1e-6)
     state = loaded.state(i, [0.0, BEAM.length], phase=1.0)
-    assert state.v[1] == pytest.approx(BEAM.length * loaded.response(1.0, i))
+    assert state.place[1, 1] == pytest.approx(BEAM.length * loaded.response(1.0, i))
     assert loaded.backbone.omega_n == pytest.approx(3.66791071 * SCALE)
 
 
@@ -204,5 +204,5 @@ def test_a_response_that_leaves_the_reach_is_kept_as_far_as_it_goes():
             by_mass(1e-4), 6.0, TipForce(amplitude=5.0), [3.0, 4.0],
             theory=Theory(extension=False), functions=8,
         )  # fmt: skip
-    assert caught.value.response.amplitude.max() > 0.5
+    assert caught.value.part.amplitude.max() > 0.5
     assert "take more damping" in str(caught.value)

@@ -20,13 +20,12 @@ def power(states, omega, nu, load, ripple=0.0):
     The load's is real where it is as it acts; the size is what it is where it gives most.
     """
     at = [states(p) for p in PHASE]
-    u, v, u_dot, v_dot = (
-        np.array([getattr(s, name) for s in at]) for name in ("u", "v", "u_dot", "v_dot")
-    )
+    x, v, _ = np.array([s.place.T for s in at]).swapaxes(0, 1)
+    u_dot, v_dot, _ = np.array([s.velocity.T for s in at]).swapaxes(0, 1)
     if isinstance(load, SpeedRipple):
         # -ẇ ∂L/∂w, the angular momentum about the axis.
         w = omega + ripple * np.cos(PHASE)[:, None]
-        momentum = (X + u) * (v_dot + w * (X + u)) - v * (u_dot - w * v)
+        momentum = x * (v_dot + w * x) - v * (u_dot - w * v)
         moved = 1j * nu * BEAM.mass_per_length * (momentum @ WEIGHTS)
     else:
         moved = v_dot @ WEIGHTS

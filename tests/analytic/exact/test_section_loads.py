@@ -18,7 +18,8 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
-from analytic.exact.continuum.planar_rotation import SteadyBeam, blade_continuum
+from analytic.exact.continuum.planar_rotation import blade_continuum
+from analytic.exact.continuum.rotation import SteadyBlade
 from analytic.exact.continuum.state import Driven
 from analytic.exact.driven.transient import pushes, unit_load
 from analytic.quadrature import gauss_points
@@ -77,7 +78,7 @@ def test_the_tension_of_a_stretched_blade_is_that_of_its_elongation():
     """N = EA (cos kx/cos k - 1) with k = ω √(m/EA) L; the planar system and that of space."""
     w, blade = 20.0, STRAIGHT
     model = blade_continuum(blade, BERNOULLI_EULER, 8, 8)
-    steady = SteadyBeam(model, w)
+    steady = SteadyBlade(model, w)
     q = steady.equilibrium[None]
     planar, moment = steady.section_loads(X, q, 0.0 * q, 0.0 * q)
     k = w / 100.0

@@ -19,11 +19,11 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
-from analytic.exact.continuum.planar_rotation import SteadyBeam, blade_continuum, steady_rotation
-from analytic.exact.continuum.rotation import SpaceBlade, space_continuum
+from analytic.exact.continuum.planar_rotation import blade_continuum
+from analytic.exact.continuum.rotation import SteadyBlade, rotating_blade, space_continuum
 from analytic.exact.driven.forced import DrivenBlade
 from analytic.exact.stability.growth import STEPS, grown
-from analytic.exact.stability.out_of_plane import OutOfPlaneMotion, Space, with_points_for
+from analytic.exact.stability.out_of_plane import FlapTorsion, OutOfPlaneMotion, with_points_for
 from analytic.methods.floquet import flow
 from analytic.methods.system import Tangent
 from analytic.parts import UNDAMPED
@@ -98,7 +98,7 @@ def test_it_is_the_tangent_of_the_blade_in_space(section, a, theory, damping, di
     blade = blade.with_damping(damping)
     known = grown(blade, orbit, 16, 48, theory)
     model = space_continuum(blade, theory, max(16, orbit.system.model.bending))
-    across = Across(orbit, SpaceBlade(model, orbit.system.rate))
+    across = Across(orbit, SteadyBlade(model, orbit.system.rate))
     # Nothing resists the free orbit.
     model.functions.damping[across.inside] = 0.0
     matrix, exponent = flow(across, 48)
@@ -118,7 +118,9 @@ def test_about_a_damped_response_it_is_the_tangent_of_the_blade_in_space():
     model = space_continuum(blade, Theory(), max(16, orbit.system.model.bending))
     across = Across(
         orbit,
-        DrivenBlade(SpaceBlade(model, orbit.system.speed(orbit.frequency)), orbit.system.load),
+        DrivenBlade(
+            model=model, rate=orbit.system.speed(orbit.frequency), drive=orbit.system.drive
+        ),
     )
     matrix, size = flow(across, 48)
     found = np.log(np.abs(np.linalg.eigvals(matrix)).max()) + size
@@ -130,8 +132,8 @@ def test_about_a_damped_response_it_is_the_tangent_of_the_blade_in_space():
 def test_what_the_viscosity_adds_to_the_stiffness_is_half_the_rate_of_the_damping(section):
     """Strains s(q) have C = ∫η sᵀs and air, and ∫η sᵀṡ with its transpose is Ċ."""
     blade = unit_beam(1e-2).with_section_out_of_plane(**asdict(section))
-    space = Space(blade.with_damping(Damping(bending=0.1, external=0.3)), 6)
-    planar, h = SteadyBeam(blade_continuum(space.blade, BERNOULLI_EULER, 8, 6), 2.0), 1e-5
+    space = FlapTorsion(blade.with_damping(Damping(bending=0.1, external=0.3)), 6)
+    planar, h = SteadyBlade(blade_continuum(space.blade, BERNOULLI_EULER, 8, 6), 2.0), 1e-5
     q, rate = 0.3 * np.random.default_rng(5).normal(size=(2, 1, planar.size))
     more = space.resistance(planar, q, rate)[1]
     after, before = (space.resistance(planar, q + step * rate, rate)[0] for step in (h, -h))
@@ -150,7 +152,7 @@ def test_damping_by_mass_decays_as_the_undamped_motion_of_less_stiffness():
             at = super().tangent(phase)
             return at._replace(stiffness=at.stiffness - 0.25 * c**2 * at.mass)
 
-    softer = Softer(orbit.on(with_points_for(orbit.system, 12)), Space(blade, 12))
+    softer = Softer(orbit.on(with_points_for(orbit.system, 12)), FlapTorsion(blade, 12))
     values = np.linalg.eigvals(flow(softer, 48)[0]) * np.exp(-c * np.pi / orbit.frequency)
     apart = np.abs(values[:, None] - found).min(axis=0)
     assert apart == pytest.approx(0.0, abs=1e-9)
@@ -186,9 +188,9 @@ def test_small_orbits_leave_each_mode_its_damping_ratio():
 def test_about_the_steady_state_it_has_the_flap_modes(blade, digits):
     """Those of a blade that is turned by a right angle, by other equations: in ϑ and e, not w."""
     blade, omega = blade.with_section_out_of_plane(0.3, 0.2), 5.0 * blade.frequency_scale
-    space = Space(blade, 18)
+    space = FlapTorsion(blade, 18)
     model = blade_continuum(blade, BERNOULLI_EULER, 24, 16)
-    steady = steady_rotation(blade, omega, model)
+    steady = rotating_blade(blade, omega, model)
     still = np.zeros((1, steady.size))
     (K,) = space.stiffness(steady, steady.equilibrium[None], still, still)
     n = space.functions
@@ -234,7 +236,7 @@ def test_the_propeller_moment_is_that_of_the_moving_plane():
     inertia = 1e-2 * BEAM.mass_per_length * BEAM.length**2
     blade = told(BEAM, inertia / 1.5, 0.5, 1e-3)
     model = blade_continuum(blade, Theory(extension=False), 12, 1)
-    space, planar = Space(blade, 8), SteadyBeam(model, 2.0)
+    space, planar = FlapTorsion(blade, 8), SteadyBlade(model, 2.0)
     still, swinging = np.zeros((1, model.size)), np.zeros((1, model.size))
     swinging[0, 0] = 1.5  # ϑ̇ = 1.5 x, the first of Legendre's polynomials being ϑ' = 1
     n = space.functions
@@ -277,11 +279,11 @@ def test_a_bar_bent_on_edge_buckles_where_timoshenko_says(curvature, known, digi
     model = blade_continuum(blade, Theory(extension=False), 8, 1)
     shape = np.zeros(model.size)
     shape[: len(curvature)] = curvature
-    still, straight = np.zeros((1, model.size)), SteadyBeam(model, 0.0)
+    still, straight = np.zeros((1, model.size)), SteadyBlade(model, 0.0)
 
     def least(load):
         bent = load * small * shape[None]
-        (K,) = Space(blade, 8).stiffness(straight, bent, still, still)
+        (K,) = FlapTorsion(blade, 8).stiffness(straight, bent, still, still)
         return np.linalg.eigvalsh(K / small)[0]
 
     assert optimize.brentq(least, 0.75 * known, 1.17 * known) == pytest.approx(known, abs=digits)

@@ -15,8 +15,8 @@ from analytic import (
     periodic_orbits,
     steady_state,
 )
-from analytic.exact.continuum.rotation import space_continuum, space_rotation
-from analytic.exact.linear.space_modes import orbit_modes
+from analytic.exact.continuum.rotation import rotating_blade, space_continuum
+from analytic.exact.linear.families import modes_of, orbit_shapes
 from tests.beams import told, unit_beam
 
 SOLID = Theory(extension=False, trapeze=False, rotary_inertia=True)
@@ -57,9 +57,10 @@ def test_the_softening_of_flap_in_space(twist, omega, linear, softening):
 )
 def test_orbits_grow_out_of_free_vibration_with_the_tip_in_the_sine(blade, gauge, reversible):
     """K + iΩC - Ω²M of each shape, and its gauge sin φ; as far as modes are resolved, all."""
-    begun = space_rotation(blade, 1.5, space_continuum(blade, SOLID, 6))
-    steady, frequencies, shapes, names = orbit_modes(begun, gauge)
-    assert names[:2] == ("flap 1", "lag 1")
+    steady = rotating_blade(blade, 1.5, space_continuum(blade, SOLID, 6), gauge)
+    modes = modes_of(blade, 1.5, SOLID, steady)
+    frequencies, shapes = modes.frequencies / blade.frequency_scale, orbit_shapes(modes)
+    assert modes.names[:2] == ("flap 1", "lag 1")
     assert (steady.odd is not None) == reversible
     if reversible:
         shapes = np.where(steady.odd, -1j, 1.0) * shapes

@@ -21,10 +21,11 @@ from analytic import (
     spin_up_response,
     stability_limit,
 )
-from analytic.exact.continuum.planar_rotation import blade_continuum, steady_rotation
+from analytic.exact.continuum.planar_rotation import blade_continuum
+from analytic.exact.continuum.rotation import rotating_blade
 from analytic.exact.free.planar_orbits import growth_rates, planar_orbits
 from analytic.exact.stability.growth import GrowthOutOfPlane, _steady_modes
-from analytic.exact.stability.out_of_plane import Space, with_points_for
+from analytic.exact.stability.out_of_plane import FlapTorsion, with_points_for
 from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER
 from tests.beams import UNIT, told
@@ -313,8 +314,8 @@ def test_what_grows_is_named_by_the_modes_of_the_straight_blade(beam, inertia):
     blade = beam.with_shape(Rectangle())
     if inertia:
         blade = told(TAPERED, inertia, 0.0625, 0.08)
-    planar = steady_rotation(blade, 4.0, blade_continuum(blade, BERNOULLI_EULER, 16, 8))
-    space = Space(blade, 27)
+    planar = rotating_blade(blade, 4.0, blade_continuum(blade, BERNOULLI_EULER, 16, 8))
+    space = FlapTorsion(blade, 27)
     rows, frequencies, names = _steady_modes(space, with_points_for(planar, space.functions))
     assert len(names) == len(rows) == frequencies.size == 54
     of = dict(zip(names, frequencies * blade.frequency_scale, strict=True))

@@ -9,7 +9,7 @@ import pytest
 from scipy.interpolate import make_interp_spline
 
 from analytic import Beam, Theory, steady_state
-from analytic.exact.continuum.rotation import space_continuum, space_rotation
+from analytic.exact.continuum.rotation import rotating_blade, space_continuum
 from analytic.exact.continuum.space import SpaceContinuum
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import unit_beam
@@ -101,7 +101,7 @@ def test_large_loads_stay_on_the_branch(ratios, twist, cone, prebend, force):
     """The state is the one that small steps of the load lead to, though there are others."""
     blade = unit_beam(1e-4).with_section_out_of_plane(*ratios).with_twist(twist)
     blade = blade.with_precone(cone).with_prebend(prebend)
-    last = space_rotation(blade, 0.0, space_continuum(blade, RIGID, 6))
+    last = rotating_blade(blade, 0.0, space_continuum(blade, RIGID, 6))
     for share in np.linspace(0.0, 1.0, 201)[1:]:
         load = tuple(share * f for f in force), (0.0, 0.0, 0.0)
         last = replace(last, load=load, near=last.equilibrium)
