@@ -1,6 +1,6 @@
 """A load, a motion and an element of one's own: a class each, here, and known everywhere."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import ClassVar
 
 import numpy as np
