@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING, Annotated, get_args
 
 import numpy as np
+from cyclopts import Parameter
 
 import analytic
 from analytic import Blade, Theory
 from analytic.arrays import FloatArray, evaluated, in_units
 from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 
+from ..files.beam_file import RunFile
+from ..files.blade_toml import blade_toml
+from ..files.openfast import blade_file_of, write_beamdyn
+from .job import Flag, require_writable, write_text
 from .motion import configured
-from .options import TheoryPairs, theory_of
-from .output import bar, formatted, print_columns, print_line, print_note
+from .options import Config, TheoryPairs, theory_of
+from .output import bar, formatted, print_columns, print_line, print_note, print_written
 
 if TYPE_CHECKING:
     from analytic.exact.linear.space_modes import LinearModes
@@ -23,8 +28,14 @@ if TYPE_CHECKING:
 _COUNT = 6  # modes
 
 
-def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
-    """Print mass, stiffness and first frequencies of a blade.
+def blade(
+    *,
+    out: Annotated[Path | None, Parameter(alias="-o")] = None,
+    force: Flag = False,
+    theory: TheoryPairs = None,
+    config: Config = None,
+) -> None:
+    """Print mass, stiffness and first frequencies of a blade, or write it into a file.
 
     The frequencies are at rest and at the speed of the file.
 
@@ -33,16 +44,22 @@ def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
 
     Parameters
     ----------
-    config
-        TOML file with the beam or blade, and optionally a speed; without it, the paper's beam.
+    out
+        File to write the blade into, and compute nothing: .toml, or .dat for BeamDyn's two files.
+    force
+        Replace a file that has this name.
 
     Examples
     --------
     $ rotbeam blade
     $ rotbeam blade --config beam.toml
+    $ rotbeam blade --config x_BeamDyn.dat --out blade.toml
     """
     file = configured(config, "motion.omega", "theory")
     blade, omega = file.blade, file.motion.get("omega", 0.0)
+    if out is not None:
+        _write(file, out, force=force)
+        return
     law = theory_of(file, theory)
     with bar("modes"):
         rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=law)
@@ -76,6 +93,20 @@ def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
             f'"{way}": the change with interpolation = "{way}" in [blade.stations]'
             + ("; these frequencies did not settle" if np.isnan(changes).any() else "")
         )
+
+
+def _write(file: RunFile, target: Path, *, force: bool) -> None:
+    """Write the blade of a file as TOML, or as BeamDyn's two files."""
+    if target.suffix not in (".toml", ".dat"):
+        raise ValueError(f"cannot write {target.name!r}: the ending must be .toml or .dat")
+    require_writable(target, force=force)
+    if target.suffix == ".toml":
+        write_text(blade_toml(file.blade, motion=file.motion, theory=file.theory), target)
+        print_written([target])
+    else:
+        beside = blade_file_of(target)
+        require_writable(beside, force=force)
+        print_written(write_beamdyn(file.blade, target))
 
 
 def _changes(

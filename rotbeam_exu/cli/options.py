@@ -72,7 +72,8 @@ Config = Annotated[
     Path | None,
     Parameter(
         help="TOML file with [beam] or [blade], and optionally [motion], [numerics], [theory] and "
-        "[[loads]]; options given here replace its values. Without a file: the paper's beam."
+        "[[loads]]; options given here replace its values. Or a blade alone: a CSV of stations, "
+        "BeamDyn's primary file, HAWC2's .htc. Without a file: the paper's beam."
     ),
 ]
 Omega = Annotated[
