@@ -35,7 +35,7 @@ def blade(
     theory: TheoryPairs = None,
     config: Config = None,
 ) -> None:
-    """Print mass, stiffness and first frequencies of a blade, or write it into a file.
+    """Print mass, stiffness and frequencies of a blade, or write it.
 
     The frequencies are at rest and at the speed of the file.
 

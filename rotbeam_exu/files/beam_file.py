@@ -48,9 +48,13 @@ def load_beam(path: str | os.PathLike[str]) -> Blade:
     lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
     [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
     [blade.stations], in place of length and section, the keywords of `Blade.from_stations` or of
-    `Blade.from_shapes`, or the name of a `file` that `blade_of_csv` reads; [blade.damping] ratio,
-    of mode 1 in the plane at rest, or bending [s], axial [s] and external [kg/(m s)], relative to
-    the turning frame and not of point masses, each zero where it is not given.
+    `Blade.from_shapes`, or the name of a `file`; [blade.damping] ratio, of mode 1 in the plane at
+    rest, or bending [s], axial [s] and external [kg/(m s)], relative to the turning frame and not
+    of point masses, each zero where it is not given.
+
+    Such a `file`, which may be read alone too, is a CSV as `blade_of_csv` reads, BeamDyn's primary
+    file, HAWC2's .htc or _st, or, with length, axial_stiffness and torsion_stiffness beside it, a
+    blade file of ElastoDyn.
 
     Raises
     ------

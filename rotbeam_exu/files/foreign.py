@@ -1,4 +1,8 @@
-"""Text of other codes' input files: numbers as Fortran writes them, values by name, rows."""
+"""Text of other codes' input files: numbers as Fortran writes them, values by name, rows.
+
+No library reads them: openfast_io 5.0.0 knows the format of OpenFAST 5 alone, and takes ElastoDyn's
+former column PitchAxis for the twist; wetb is under GPL and installs 25 packages.
+"""
 
 from __future__ import annotations
 
