@@ -241,6 +241,10 @@ class Blade(Described):
         """I/A at the root, and A where it is known."""
         return Gyration(squared=self.slenderness * self.length**2)
 
+    def with_section(self, section: Section) -> Blade:
+        """Return the blade with `section` in place of its own."""
+        return self._changed(section=section)
+
     def with_hub_radius(self, radius: float) -> Blade:
         """Return the blade clamped at `radius` [m] from the axis."""
         return self._changed(hub_radius=radius)
@@ -315,7 +319,7 @@ class Blade(Described):
         Mass and EA go with width times height, EI with width times height cubed; the height is
         the dimension in the plane of bending.
         """
-        return self._changed(section=self.section.tapered(width, height))
+        return self.with_section(self.section.tapered(width, height))
 
     def with_damping(self, damping: Damping) -> Blade:
         """Return the blade with `damping` in place of its own."""
@@ -339,7 +343,7 @@ class Blade(Described):
         return self._with_out_of_plane(shape.out_of_plane(self.gyration))
 
     def _with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Blade:
-        return self._changed(section=self.section.with_out_of_plane(out_of_plane))
+        return self.with_section(self.section.with_out_of_plane(out_of_plane))
 
     def _changed(self, **change: Any) -> Blade:
         """Return the blade that differs in these fields; of a `Beam` a `Blade`."""

@@ -14,13 +14,11 @@ from analytic import Blade, Theory
 from analytic.arrays import FloatArray, evaluated, in_units
 from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 
-from ..files.beam_file import RunFile
 from ..files.blade_toml import blade_toml
 from ..files.openfast import blade_file_of, write_beamdyn
 from .job import Flag, require_writable, write_text
-from .motion import configured
-from .options import Config, TheoryPairs, theory_of
 from .output import bar, formatted, print_columns, print_line, print_note, print_written
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.linear.space_modes import LinearModes
@@ -28,12 +26,12 @@ if TYPE_CHECKING:
 _COUNT = 6  # modes
 
 
+@uses("theory", "motion.omega")
 def blade(
+    request: Request,
     *,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
-    theory: TheoryPairs = None,
-    config: Config = None,
 ) -> None:
     """Print mass, stiffness and frequencies of a blade, or write it.
 
@@ -55,22 +53,20 @@ def blade(
     $ rotbeam blade --config beam.toml
     $ rotbeam blade --config x_BeamDyn.dat --out blade.toml
     """
-    file = configured(config, "motion.omega", "theory")
-    blade, omega = file.blade, file.motion.get("omega", 0.0)
+    blade, theory, omega = request.blade, request.theory, request.values.get("omega", 0.0)
     if out is not None:
-        _write(file, out, force=force)
+        _write(request, out, force=force)
         return
-    law = theory_of(file, theory)
     with bar("modes"):
-        rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=law)
+        rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=theory)
         turning = {}
         if omega:
-            modes = analytic.linear_modes(blade, omega, _COUNT, theory=law)
+            modes = analytic.linear_modes(blade, omega, _COUNT, theory=theory)
             turning[f"at {omega:g} rad/s [Hz]"] = _named(modes, rest) / (2.0 * np.pi)
         section, others = blade.section, {}
         if isinstance(section, StationSection):
             (way,) = set(get_args(Interpolation)) - {section.interpolation}
-            others[way] = _changes(blade, section, way, law, rest)
+            others[way] = _changes(blade, section, way, theory, rest)
     place, mass = blade.unit.inertia(32)
     moment = float(place @ mass) * blade.mass_per_length * blade.length**2
     print_line("length", f"{blade.length:g} m, on a hub of {blade.hub_radius:g} m")
@@ -86,7 +82,7 @@ def blade(
             **{title: formatted(values, ".6f") for title, values in turning.items()},
             **{f'"{way}" [%]': formatted(changes, "+.4f") for way, changes in others.items()},
         },
-        title=f"Frequencies, {law}",
+        title=f"Frequencies, {theory}",
     )
     for way, changes in others.items():
         print_note(
@@ -95,18 +91,18 @@ def blade(
         )
 
 
-def _write(file: RunFile, target: Path, *, force: bool) -> None:
-    """Write the blade of a file as TOML, or as BeamDyn's two files."""
+def _write(request: Request, target: Path, *, force: bool) -> None:
+    """Write the blade as TOML, with the file's speed and theory, or as BeamDyn's two files."""
     if target.suffix not in (".toml", ".dat"):
         raise ValueError(f"cannot write {target.name!r}: the ending must be .toml or .dat")
     require_writable(target, force=force)
-    if target.suffix == ".toml":
-        write_text(blade_toml(file.blade, motion=file.motion, theory=file.theory), target)
-        print_written([target])
-    else:
-        beside = blade_file_of(target)
-        require_writable(beside, force=force)
-        print_written(write_beamdyn(file.blade, target))
+    if target.suffix == ".dat":
+        require_writable(blade_file_of(target), force=force)
+        print_written(write_beamdyn(request.blade, target))
+        return
+    motion = {name: request.values[name] for name in ("omega",) if name in request.values}
+    write_text(blade_toml(request.blade, motion=motion, theory=request.theory), target)
+    print_written([target])
 
 
 def _changes(

@@ -11,8 +11,8 @@ from analytic import Beam, Blade
 from analytic.station_section import StationSection
 
 
-def blade_toml(blade: Blade, **others: Mapping[str, Any]) -> str:
-    """Return the text of a TOML file with a blade, every digit of it, and other tables.
+def blade_toml(blade: Blade, **others: Any) -> str:
+    """Return the text of a TOML file with a blade, every digit of it, and other tables or values.
 
     Examples
     --------
@@ -40,7 +40,8 @@ def blade_toml(blade: Blade, **others: Mapping[str, Any]) -> str:
         if "stations" in parts:
             del parts["length"]
         own = {"blade": parts}
-    return "\n".join(_lines({**{k: dict(v) for k, v in others.items() if v}, **own}, ())) + "\n"
+    tables = {name: _plain(other) for name, other in others.items()}
+    return "\n".join(_lines({k: v for k, v in (tables | own).items() if v}, ())) + "\n"
 
 
 def _changed(value: Any) -> dict[str, Any]:
