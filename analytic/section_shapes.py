@@ -246,7 +246,7 @@ class Box(SectionShape):
 
 
 _CORNER = 1.0 - 2.0 * math.log(2.0) / math.pi, 0.144834, 0.202911
-"""Of a square corner of two walls of thickness 1: flow, ∫u and ∫w more than those of its walls.
+"""Flow, ∫u and ∫w of a square corner of two walls of thickness 1, beyond those of the walls.
 
 The first from a conformal map; the others by finite differences, to their digits.
 """

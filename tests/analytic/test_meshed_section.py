@@ -12,7 +12,7 @@ from analytic.section_shapes import Box
 E, RHO, NU = 7e10, 2700.0, 0.3
 
 
-def standing_in(**more):
+def standing_in(a_sxy=np.inf, **more):
     """A rectangle, 0.06 along x and 0.02 along y, with its center at (0.1, -0.02)."""
     numbers = {
         "get_area": 1.2e-3, "get_ic": (4e-8, 3.6e-7, 0.0), "get_c": (0.1, -0.02), "get_j": 1.2e-7,
@@ -20,7 +20,7 @@ def standing_in(**more):
         "calculate_geometric_properties": None, "calculate_warping_properties": None,
     } | more  # fmt: skip
     answers = {name: lambda value=value: value for name, value in numbers.items()}
-    return SimpleNamespace(**answers, section_props=SimpleNamespace(a_sxy=np.inf))
+    return SimpleNamespace(**answers, section_props=SimpleNamespace(a_sxy=a_sxy))
 
 
 def test_a_meshed_section_is_the_station_of_its_columns():
@@ -34,6 +34,25 @@ def test_a_meshed_section_is_the_station_of_its_columns():
     for name in ("stiffness", "mass"):
         ours, theirs = (np.array(getattr(one.section, name)) for one in (found, known))
         assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-9)
+
+
+def test_products_of_inertia_and_of_shear_have_their_signs():
+    """The rectangle turned about the origin by 0.3 has the turned matrices."""
+    c, s = np.cos(0.3), np.sin(0.3)
+    R = np.array([[c, -s], [s, c]])
+    at = R @ (0.1, -0.02)
+    soft = R @ np.diag([1 / 1e-3, 1 / 9e-4]) @ R.T
+    ic = (c**2 * 4e-8 + s**2 * 3.6e-7, c**2 * 3.6e-7 + s**2 * 4e-8, s * c * 3.2e-7)
+    oblique = standing_in(
+        a_sxy=1.0 / soft[0, 1], get_ic=ic, get_c=at, get_sc=at,
+        get_as=(1.0 / soft[0, 0], 1.0 / soft[1, 1]),
+    )  # fmt: skip
+    turn = np.eye(6)
+    turn[1:3, 1:3] = turn[4:, 4:] = R
+    found, straight = (matrices_of(one, E, RHO) for one in (oblique, standing_in()))
+    for ours, theirs in zip(found, straight, strict=True):
+        size = np.sqrt(np.diag(ours))
+        assert np.all(np.abs(ours - turn @ theirs @ turn.T) < 1e-12 * np.outer(size, size))
 
 
 @pytest.mark.parametrize(
