@@ -185,7 +185,12 @@ class Tube(SectionShape):
 
 @dataclass(frozen=True, kw_only=True)
 class Box(SectionShape):
-    """A rectangular tube of thin walls, with Bredt's J; the walls along a force bear its shear.
+    """A rectangular tube with sharp corners.
+
+    J is the torsion of its straight walls and of its four corners, each the same as if the others
+    were far: to 0.1 % where a wall is at most a third of the width, to 1.2 % where it closes the
+    tube. Shear has the energy of Jourawski's shear flow, Q²/(2I²t), to 4 % up to a third, and
+    to 8 % beyond.
 
     Parameters
     ----------
@@ -225,13 +230,39 @@ class Box(SectionShape):
     def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
         h, b, t = lengths["height"], lengths["width"], lengths["wall"]
         inertia = _box_inertia(h, b, t)
-        bredt = 2.0 * t * ((h - t) * (b - t)) ** 2 / (h + b - 2.0 * t)
-        return _box_inertia(b, h, t) / inertia, bredt / inertia
+        # Stress function of torsion: c u + w, where u falls from 1 at the hole to 0 outside, and w
+        # is zero on both. Integrals of u and of w, and the flow of u, are of walls and corners.
+        inside, hole = 2.0 * (h + b - 4.0 * t), (h - 2.0 * t) * (b - 2.0 * t)
+        flow, of_u, of_w = (
+            wall * inside * t**power + 4.0 * corner * t ** (power + 1)
+            for power, wall, corner in zip((-1, 1, 3), (1.0, 0.5, 1.0 / 6.0), _CORNER, strict=True)
+        )
+        torsion = 2.0 * of_w + 4.0 * (hole + of_u) ** 2 / flow
+        return _box_inertia(b, h, t) / inertia, torsion / inertia
 
     def _shear(self, lengths: Mapping[str, float]) -> tuple[float, float]:
-        area = self._gyration(lengths).area or math.nan
-        along, across = (2.0 * lengths["wall"] * lengths[side] for side in ("height", "width"))
-        return along / area, across / area
+        h, b, t = lengths["height"], lengths["width"], lengths["wall"]
+        return _box_shear(h, b, t), _box_shear(b, h, t)
+
+
+_CORNER = 1.0 - 2.0 * math.log(2.0) / math.pi, 0.144834, 0.202911
+"""Flow, ∫u and ∫w of a square corner of two walls of thickness 1, beyond those of the walls.
+
+The first from a conformal map; the others by finite differences, to their digits.
+"""
+
+
+def _box_shear(h: float, b: float, t: float) -> float:
+    """Return the shear coefficient along h: I² over A and the integral of Q²/t."""
+    half, inner = 0.5 * h, 0.5 * h - t
+    flange = 0.5 * b * (half**2 - inner**2)
+    web = flange**2 * inner + 4.0 / 3.0 * flange * t * inner**3 + 8.0 / 15.0 * t**2 * inner**5
+    ends = 0.25 * b**2 * (
+        8.0 / 15.0 * half**5 - inner * (half**4 - 2.0 / 3.0 * (half * inner) ** 2 + 0.2 * inner**4)
+    )  # fmt: skip
+    across = (t * (h - t)) ** 2 * (0.5 * b - t) ** 3 / 3.0
+    area = h * b - 4.0 * inner * (0.5 * b - t)
+    return _box_inertia(h, b, t) ** 2 * t / (area * (web + ends + across))
 
 
 def _box_inertia(h: float, b: float, t: float) -> float:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, get_args
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, get_args
 
 import numpy as np
+from cyclopts import Parameter
 
 import analytic
 from analytic import Blade, Theory
 from analytic.arrays import FloatArray, evaluated, in_units
 from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 
-from .output import bar, formatted, print_columns, print_line, print_note
+from ..files.blade_toml import blade_toml
+from ..files.openfast import blade_file_of, write_beamdyn
+from .job import Flag, require_writable, write_text
+from .output import bar, formatted, print_columns, print_line, print_note, print_written
 from .request import Request, uses
 
 if TYPE_CHECKING:
@@ -22,20 +27,36 @@ _COUNT = 6  # modes
 
 
 @uses("theory", "motion.omega")
-def blade(request: Request) -> None:
-    """Print mass, stiffness and first frequencies of a blade.
+def blade(
+    request: Request,
+    *,
+    out: Annotated[Path | None, Parameter(alias="-o")] = None,
+    force: Flag = False,
+) -> None:
+    """Print mass, stiffness and frequencies of a blade, or write it.
 
     The frequencies are at rest and at the speed of the file.
 
     Of a table of stations it also prints by how much the frequencies at rest change with the other
     interpolation between stations, which is a convention.
 
+    Parameters
+    ----------
+    out
+        File to write the blade into, and compute nothing: .toml, or .dat for BeamDyn's two files.
+    force
+        Replace a file that has this name.
+
     Examples
     --------
     $ rotbeam blade
     $ rotbeam blade --config beam.toml
+    $ rotbeam blade --config x_BeamDyn.dat --out blade.toml
     """
     blade, theory, omega = request.blade, request.theory, request.values.get("omega", 0.0)
+    if out is not None:
+        _write(request, out, force=force)
+        return
     with bar("modes"):
         rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=theory)
         turning = {}
@@ -68,6 +89,20 @@ def blade(request: Request) -> None:
             f'"{way}": the change with interpolation = "{way}" in [blade.stations]'
             + ("; these frequencies did not settle" if np.isnan(changes).any() else "")
         )
+
+
+def _write(request: Request, target: Path, *, force: bool) -> None:
+    """Write the blade as TOML, with the file's speed and theory, or as BeamDyn's two files."""
+    if target.suffix not in (".toml", ".dat"):
+        raise ValueError(f"cannot write {target.name!r}: the ending must be .toml or .dat")
+    require_writable(target, force=force)
+    if target.suffix == ".dat":
+        require_writable(blade_file_of(target), force=force)
+        print_written(write_beamdyn(request.blade, target))
+        return
+    motion = {name: request.values[name] for name in ("omega",) if name in request.values}
+    write_text(blade_toml(request.blade, motion=motion, theory=request.theory), target)
+    print_written([target])
 
 
 def _changes(

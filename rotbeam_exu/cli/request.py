@@ -157,7 +157,8 @@ def _config(tables: Iterable[str]) -> inspect.Parameter:
     """Return the parameter of the file, which tells the tables of a run that it may have."""
     titles = ", ".join(f"[[{one}]]" if one == "loads" else f"[{one}]" for one in tables)
     more = f", optionally {titles}; options given here replace its values" if titles else ""
-    text = f"TOML file with [beam] or [blade]{more}. Without a file: the paper's beam."
+    alone = "Or a blade alone: BeamDyn's primary file, HAWC2's .htc, a CSV of stations."
+    text = f"TOML file with [beam] or [blade]{more}. {alone} Without a file: the paper's beam."
     return _option("config", Annotated[Path | None, Parameter(help=text)])
 
 

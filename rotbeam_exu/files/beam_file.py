@@ -19,7 +19,8 @@ from analytic.section import OutOfPlane
 from analytic.section_shapes import SectionShape
 
 from .beam_tables import BEAM, NUMERICS, require_keys
-from .stations_file import blade_of_csv, text_of
+from .blade_files import blade_by, blade_of_file, reader_of
+from .stations_file import text_of
 
 _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
 
@@ -47,9 +48,13 @@ def load_beam(path: str | os.PathLike[str]) -> Blade:
     lengths [m]; each [[blade.point_mass]] position, mass, inertia and offset; [blade.line] twist
     [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
     [blade.stations], in place of length and section, the keywords of `Blade.from_stations` or of
-    `Blade.from_shapes`, or the name of a `file` that `blade_of_csv` reads; [blade.damping] ratio,
-    of mode 1 in the plane at rest, or bending [s], axial [s] and external [kg/(m s)], relative to
-    the turning frame and not of point masses, each zero where it is not given.
+    `Blade.from_shapes`, or the name of a `file`; [blade.damping] ratio, of mode 1 in the plane at
+    rest, or bending [s], axial [s] and external [kg/(m s)], relative to the turning frame and not
+    of point masses, each zero where it is not given.
+
+    Such a `file`, which may be read alone too, is a CSV as `blade_of_csv` reads, BeamDyn's primary
+    file, HAWC2's .htc or _st, or, with length, axial_stiffness and torsion_stiffness beside it, a
+    blade file of ElastoDyn.
 
     Raises
     ------
@@ -84,6 +89,8 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
     are those of `load_beam`.
     """
     source = Path(path)
+    if reader := reader_of(source):
+        return RunFile(blade=blade_by(reader, source, {}))
     document = _read_toml(source)
     try:
         if "beam" in document and "blade" in document:
@@ -131,11 +138,6 @@ def _read_toml(source: Path) -> dict[str, Any]:
     """Return the tables of a TOML file; refuse other files."""
     if not source.is_file():
         raise FileNotFoundError(f"there is no file {source}")
-    if source.suffix.lower() == ".csv":
-        raise ValueError(
-            f"{source} is a CSV, which a TOML file names: write [blade.stations] with "
-            f'file = "{source.name}" into a TOML file in its folder'
-        )
     text = text_of(source)
     try:
         return tomllib.loads(text)
@@ -167,7 +169,8 @@ def _blade(table: dict[str, Any], folder: Path) -> Blade:
             raise ValueError(
                 "[blade.line] and [blade.stations] both give a twist: keep that of the stations"
             )
-        line = {"twist": at.line.twist, **line}
+        own = {name: getattr(at.line, name) for name in ("prebend", "sweep")}
+        line = {"twist": at.line.twist, **{k: v for k, v in own.items() if v}, **line}
     else:
         section = dict(parts["section"])
         shape = section.pop("shape", None)
@@ -187,7 +190,8 @@ def _blade(table: dict[str, Any], folder: Path) -> Blade:
 
 def _at_stations(table: dict[str, Any], folder: Path) -> Blade:
     if "file" in table:
-        return blade_of_csv(folder / str(table["file"]))
+        given = dict(table)
+        return blade_of_file(folder / str(given.pop("file")), given)
     if "shapes" in table:
         shapes = [from_description(one, SectionShape) for one in table["shapes"]]
         return Blade.from_shapes(**{**table, "shapes": shapes})

@@ -17,6 +17,7 @@ from analytic.parts import Line
 from analytic.section_shapes import SectionShape
 
 from ..runs import Element, Frame
+from .openfast import blade_of_elastodyn
 
 
 class Table(NamedTuple):
@@ -36,7 +37,11 @@ def table_of(call: Callable[..., object]) -> Table:
 BEAM = Table(table_of(Beam).required, {"shape": SectionShape})
 _SECTION = table_of(Section)
 _SHAPED = Table(_SECTION.required, {**_SECTION.optional, "shape": SectionShape})
-_STATIONS = table_of(Blade.from_stations), table_of(Blade.from_shapes), Table({"file": str}, {})
+_STATIONS = (
+    table_of(Blade.from_stations),
+    table_of(Blade.from_shapes),
+    Table({"file": str}, table_of(blade_of_elastodyn).optional),
+)
 _BLADE = {
     "hub_radius": float,
     "setting_angle": float,

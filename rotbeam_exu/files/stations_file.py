@@ -17,6 +17,8 @@ from analytic.arrays import FloatArray
 from analytic.input_checks import shown
 from analytic.station_section import MASSES, STIFFNESSES
 
+from .openfast import elastodyn_names
+
 _CENTERS = ("tension", "shear", "center", "axis")
 _UNITS = {
     "x": "m", "twist": "rad", "EA": "N", "EI": "N m^2", "m": "kg/m",
@@ -126,6 +128,12 @@ def _factors(header: Iterable[str], path: Path) -> dict[str, float]:
     named = [
         (known[1], known[2], title) if known else (title, "", title) for known, title in titles
     ]
+    if theirs := {title: own for *_, title in named if (own := elastodyn_names(title))}:
+        told = ", ".join(f"{title} is {own}" for title, own in theirs.items())
+        raise ValueError(
+            f"{path} has columns of ElastoDyn: name them as here, where {told}, and give EA [N] "
+            "and GJ [N m^2]; or name ElastoDyn's file itself in [blade.stations]"
+        )
     if not any(name in _UNITS for name, *_ in named):  # of another file, of which nothing is shown
         raise ValueError(
             f"{path} begins with no title of a known column: give it a header, as x [m],EA [N],"

@@ -1,4 +1,4 @@
-"""A blade over time for ParaView: VTK's XML files, a line or the body of a rectangular section."""
+"""A blade over time for ParaView: VTK's XML files, a line, a body or a surface."""
 
 from __future__ import annotations
 
@@ -16,21 +16,27 @@ from analytic.arrays import FloatArray
 
 from ..lazily import xr
 from ..runs.attributes import beam_of
-from ..runs.shape import in_space, sides_of
+from ..runs.shape import in_space, offsets_of, sides_of, strain_at
 from .results import whole_file, writable_folder
 
-_LINE, _HEXAHEDRON = 3, 12  # VTK's numbers of cells
+_LINE, _POLYGON, _QUAD, _HEXAHEDRON = 3, 7, 9, 12  # VTK's numbers of cells
 _CORNERS = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])  # over height and width
 
 
 def save_vtk(
-    data: xr.Dataset, path: Path, *, height: ArrayLike | None = None, width: ArrayLike | None = None
+    data: xr.Dataset,
+    path: Path,
+    *,
+    height: ArrayLike | None = None,
+    width: ArrayLike | None = None,
+    points: ArrayLike | None = None,
+    youngs_modulus: ArrayLike | None = None,
 ) -> Path:
     """Write a blade over time as `path`, .pvd, and one .vtu for each time in a folder beside it.
 
     Seen from outside, where `data` has the angle of the clamp. Points have the station [m], the
     axes of its section (normal, chord, thickness), `force` [N] and `moment` [N m] by these axes,
-    and the strain there; of a `Beam`, whose Young's modulus is known, the stress [Pa] too.
+    and the strain there; with a Young's modulus, which a `Beam` knows, the stress [Pa] too.
 
     Parameters
     ----------
@@ -41,12 +47,17 @@ def save_vtk(
     height, width : float or array_like (stations,), optional
         Of a rectangular section along its chord, which is in the plane of bending, and across it
         [m]. With both the blade is drawn as a body, with neither as a line.
+    points : array_like (points, 2) or (stations, points, 2), optional
+        In place of them, (c2, c3) [m] around the section, as of an airfoil: the blade is drawn as
+        its surface.
+    youngs_modulus : float or array_like (points,) or (stations, points), optional
+        E [N/m²] at the points or corners.
 
     Raises
     ------
     ValueError
         If the ending is another, there are no sections at two stations, one side is missing, or it
-        varies and one number is given for it.
+        varies and one number is given for it, or there are less than three points.
 
     Examples
     --------
@@ -70,13 +81,24 @@ def save_vtk(
             "at least two along the blade"
         )
     data = data if "time" in data.dims else data.expand_dims("time")
-    offsets = corners(beam_of(data.attrs), data["station"].to_numpy(), height, width)
+    blade, at = beam_of(data.attrs), data["station"].to_numpy()
+    if points is None:
+        offsets = corners(blade, at, height, width)
+    elif height is not None or width is not None:
+        raise ValueError("points, or height and width, tell the section: leave one out")
+    elif (offsets := offsets_of(blade, at, points)).shape[1] < 3:
+        raise ValueError("the surface of a blade needs three points of each section, or more")
+    if youngs_modulus is None and isinstance(blade, Beam):
+        youngs_modulus = blade.youngs_modulus
+    there = strain_at(data, offsets, youngs_modulus)
     folder, sets = path.with_suffix(""), ""
     writable_folder(folder)
     for n, standing in enumerate(zip(*in_space(data), strict=True)):
         name = f"{folder.name}/{folder.name}-{n:04d}.vtu"
         with whole_file(path.parent / name) as partial:
-            partial.write_text(_grid(data.isel(time=n), *standing, offsets), encoding="ascii")
+            now = data.isel(time=n), there.isel(time=n)
+            text = _grid(*now, *standing, offsets, hollow=points is not None)
+            partial.write_text(text, encoding="ascii")
         sets += f'<DataSet timestep="{data["time"][n].item()!r}" file={quoteattr(name)}/>\n'
     with whole_file(path) as partial:
         partial.write_text(_file("Collection", sets), encoding="utf-8")
@@ -101,28 +123,42 @@ def corners(
     return np.asarray(_CORNERS * sides[:, None])
 
 
-def _grid(data: xr.Dataset, place: FloatArray, section: FloatArray, offsets: FloatArray) -> str:
+def _grid(
+    data: xr.Dataset, there: xr.Dataset, place: FloatArray, section: FloatArray,
+    offsets: FloatArray, *, hollow: bool,
+) -> str:  # fmt: skip
     """Return a .vtu of points at `offsets` (stations, corners, 2) from the axis, and its cells."""
     corners, cells = offsets.shape[1], len(place) - 1
-    _, about_chord, about_thickness = data["curvature"].to_numpy().T[..., None]
-    bent = about_chord * offsets[..., 1] - about_thickness * offsets[..., 0]
     values = {name: data[name].to_numpy() for name in ("station", "force", "moment")}
     values |= {
         name: section[..., k] for k, name in enumerate(data["section_axis"].to_numpy().tolist())
     }
     values = {name: np.repeat(one, corners, axis=0) for name, one in values.items()}
-    values["strain"] = (data["strain"].to_numpy()[:, None] + bent).ravel()
-    if isinstance(blade := beam_of(data.attrs), Beam):
-        values["stress"] = blade.youngs_modulus * values["strain"]
+    values |= {str(name): one.to_numpy().ravel() for name, one in there.data_vars.items()}
     points = place[:, None] + offsets @ np.swapaxes(section[..., 1:], -1, -2)
-    joined = corners * np.arange(cells)[:, None] + np.arange(2 * corners)
-    kind = np.full(cells, _LINE if corners == 1 else _HEXAHEDRON, np.uint8)
-    ends = 2 * corners * np.arange(1, cells + 1)
+    if hollow:  # a strip of quadrilaterals around each cell, and both ends
+        around = np.arange(corners)
+        ring = np.stack([around, np.roll(around, -1)])
+        sides = np.concatenate((ring, ring[::-1] + corners)).T.ravel()
+        joined = np.concatenate(
+            (
+                around,
+                (corners * np.arange(cells)[:, None] + sides).ravel(),
+                corners * cells + around,
+            )
+        )
+        sizes = np.repeat([corners, 4, corners], [1, corners * cells, 1])
+        kind = np.repeat([_POLYGON, _QUAD, _POLYGON], [1, corners * cells, 1]).astype(np.uint8)
+    else:
+        joined = (corners * np.arange(cells)[:, None] + np.arange(2 * corners)).ravel()
+        sizes = np.full(cells, 2 * corners)
+        kind = np.full(cells, _LINE if corners == 1 else _HEXAHEDRON, np.uint8)
+    ends = np.cumsum(sizes)
     return _file(
         "UnstructuredGrid",
-        f'<Piece NumberOfPoints="{corners * len(place)}" NumberOfCells="{cells}">\n'
+        f'<Piece NumberOfPoints="{corners * len(place)}" NumberOfCells="{kind.size}">\n'
         + _part("Points", {"place": points.reshape(-1, 3)})
-        + _part("Cells", {"connectivity": joined.ravel(), "offsets": ends, "types": kind})
+        + _part("Cells", {"connectivity": joined, "offsets": ends, "types": kind})
         + _part("PointData", values)
         + "</Piece>\n",
     )

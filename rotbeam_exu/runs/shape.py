@@ -13,7 +13,7 @@ from analytic.arrays import FloatArray, evaluated, slope_of
 from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.exact.continuum.state import SectionLoads
 from analytic.exact.continuum.unit import space_unit, trapeze_of
-from analytic.input_checks import along
+from analytic.input_checks import along, finite_array, require_offset
 from analytic.theory import BERNOULLI_EULER
 
 from ..labels import dataset
@@ -77,6 +77,74 @@ def in_space(data: xr.Dataset) -> tuple[FloatArray, FloatArray]:
     hub = blade.hub_radius * np.array([c, 0.0, -s])
     place = (data["place"].to_numpy() + hub) @ np.swapaxes(turn, -1, -2)
     return place, turn[:, None] @ np.asarray(data.get("section", np.eye(3)))
+
+
+def strain_at(
+    data: xr.Dataset, points: ArrayLike, youngs_modulus: ArrayLike | None = None
+) -> xr.Dataset:
+    """Return the strain over time, station and point, and with a modulus the stress [Pa].
+
+    ε + κ2 c3 - κ3 c2, along the blade, of sections that stay plane.
+
+    Parameters
+    ----------
+    data : Dataset
+        With stations: of a run, or of an exact answer by `dataset_of` or `shape_of`.
+    points : array_like (points, 2) or (stations, points, 2)
+        (c2, c3) [m] from the blade's line along chord and thickness, the same at all stations or
+        at each.
+    youngs_modulus : float or array_like (points,) or (stations, points), optional
+        E [N/m²] there.
+
+    Raises
+    ------
+    ValueError
+        If the shape is another, a point is farther than the blade is long, or E is not positive.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Rectangle, steady_state
+    >>> from rotbeam_exu.runs.shape import shape_of, strain_at
+    >>> strip = Beam.reference().with_shape(Rectangle())
+    >>> loads = steady_state(strip, omega=6.0).section_loads([0.0, 4.0])
+    >>> found = strain_at(shape_of(loads), [(0.018, 0.001), (-0.018, 0.001)], 7e10)
+    >>> print(dict(found.sizes), (found["stress"].max() / 1e6).round(2).item(), "MPa")
+    {'station': 2, 'point': 2} 3.24 MPa
+    """
+    place = data["station"]
+    offsets = offsets_of(beam_of(data.attrs), np.atleast_1d(place.to_numpy()), points)
+    over = (*place.dims, "point")
+    c2, c3 = (xr.DataArray(offsets[..., k].reshape(*place.shape, -1), dims=over) for k in range(2))
+    about_chord, about_thickness = (
+        data["curvature"].isel(section_axis=k, drop=True) for k in (1, 2)
+    )
+    strain = data["strain"] + about_chord * c3 - about_thickness * c2
+    found = {"strain": strain.assign_attrs(units="1", long_name="strain at the point")}
+    if youngs_modulus is not None:
+        E = finite_array("youngs_modulus", youngs_modulus, "Pa")
+        if E.min() <= 0.0 or E.shape not in ((), c2.shape, c2.shape[-1:]):
+            raise ValueError(
+                f"youngs_modulus must be positive, one number or as many as points, {c2.shape}, "
+                f"got the shape {E.shape} from {E.min():g} Pa"
+            )
+        modulus = xr.DataArray(np.broadcast_to(E, c2.shape), dims=over)
+        stress = (modulus * strain).transpose(*strain.dims)
+        found["stress"] = stress.assign_attrs(units="Pa", long_name="stress at the point")
+    return xr.Dataset(found, attrs=data.attrs)
+
+
+def offsets_of(blade: Blade, at: FloatArray, points: ArrayLike) -> FloatArray:
+    """Return (c2, c3) [m] of points of the sections at stations, (stations, points, 2)."""
+    offsets = finite_array("points", points, "m")
+    if offsets.ndim == 2:
+        offsets = np.broadcast_to(offsets, (at.size, *offsets.shape))
+    if offsets.ndim != 3 or offsets.shape[::2] != (at.size, 2) or not offsets.size:
+        raise ValueError(
+            f"points must be pairs (c2, c3) [m], (points, 2), or such at each of the {at.size} "
+            f"stations, got the shape {np.shape(points)}"
+        )
+    require_offset("a point of a section", offsets, blade.length)
+    return offsets
 
 
 def outer_strain(data: xr.Dataset, height: ArrayLike, width: ArrayLike = 0.0) -> xr.DataArray:

@@ -42,7 +42,7 @@ def test_round_shapes_have_the_closed_forms(shape, area, along, across, torsion)
 
 
 def test_a_box():
-    """Its A and I are those of the outer rectangle less the inner; J of a thin square is t a³."""
+    """Its A and I are those of the outer rectangle less the inner."""
     stiffness, _ = Box(height=0.4, width=0.2, wall=0.01).of_material(E, RHO)
     hole = {"height": 0.38, "width": 0.18}
     outer, inner = (
@@ -50,8 +50,37 @@ def test_a_box():
         for sides in ({"height": 0.4, "width": 0.2}, hole)
     )
     assert np.array(stiffness)[[0, 4, 5]] == pytest.approx((outer - inner)[[0, 4, 5]], rel=1e-12)
-    square = Box(height=1.001, width=1.001, wall=1e-3).of_material(E, RHO)[0]
-    assert square[3] == pytest.approx(E / 2.6 * 1e-3, rel=1e-12)
+
+
+# height, width, wall [cm]; J, As/A by sectionproperties on triangles of wall²/6 to wall²/400.
+MESHED = [
+    ((6.0, 2.0, 0.05), 1.714375, 0.7002, 0.1365, 5e-4),
+    ((6.0, 2.0, 0.2), 5.90047, 0.7147, 0.1333, 1.2e-3),
+    ((6.0, 2.0, 0.4), 9.55519, 0.7376, 0.1318, 2e-4),
+    ((6.0, 2.0, 0.7), 12.04011, 0.7820, 0.1438, 7e-4),
+    ((2.0, 2.0, 0.5), 2.066417, 0.5442, 0.5442, 4e-4),
+    ((2.0, 2.0, 0.8), 2.24401, 0.7471, 0.7471, 6e-3),
+]
+
+
+@pytest.mark.parametrize(("sides", "torsion", "along", "across", "close"), MESHED)
+def test_a_box_of_any_wall_is_that_of_finite_elements(sides, torsion, along, across, close):
+    """Thin and thick; a coarse mesh is too stiff by as much as stands there."""
+    box = Box(**dict(zip(("height", "width", "wall"), sides, strict=True)), poisson_ratio=0.0)
+    stiffness, (area, *_) = box.of_material(2.0, 1.0)
+    assert stiffness[3] == pytest.approx(torsion, rel=close)
+    shear = 0.09 if 3.0 * sides[2] > sides[1] * 1.1 else 0.04
+    assert np.array(stiffness[1:3]) / area == pytest.approx([along, across], rel=shear)
+
+
+def test_the_limits_of_a_box():
+    """Bredt's t a³ and half the area for shear of a thin square, and a closed tube's torsion."""
+    thin = Box(height=1.0001, width=1.0001, wall=1e-4, poisson_ratio=0.0).of_material(2.0, 1.0)
+    assert thin[0][3] == pytest.approx(1e-4, rel=1e-4)
+    assert thin[0][1] / thin[1][0] == pytest.approx(5.0 / 12.0, rel=1e-3)  # Cowper, at ν = 0
+    closed = Box(height=1.0, width=1.0, wall=0.5).of_material(E, RHO)[0]
+    full = Rectangle(height=1.0, width=1.0).of_material(E, RHO)[0]
+    assert closed[3] == pytest.approx(full[3], rel=1.2e-2)
 
 
 def test_the_shear_coefficients_are_cowpers():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from analytic import Theory, linear_modes
-from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.files.beam_file import load_beam, load_run_file
 from tests.beams import BLADE_TOML
 
 TABLE = """
@@ -94,3 +94,34 @@ def test_frequencies_that_do_not_settle_are_dashes(call, tmp_path):
     assert code == 0
     assert rows(out)["flap 1"][2] == "-"
     assert "did not settle" in out
+
+
+def test_it_writes_a_blade_and_reads_it_again(call, file, tmp_path):
+    """As TOML, with the speed of the file, and as BeamDyn's two files; neither is replaced."""
+    file.write_text("[motion]\nomega = 2.0\n" + TABLE)
+    for name in ("b.toml", "b_BeamDyn.dat"):
+        code, out, error = call("blade", "--config", file, "-o", tmp_path / name)
+        assert (code, error) == (0, "")
+        assert f"written {tmp_path / name}" in " ".join(out.split())
+        found, known = (load_beam(one) for one in (tmp_path / name, file))
+        assert np.array(found.section.stiffness) == pytest.approx(np.array(known.section.stiffness))
+        assert np.array(found.section.mass) == pytest.approx(np.array(known.section.mass))
+        code, _, error = call("blade", "--config", file, "-o", tmp_path / name)
+        assert code != 0
+        assert "is there: choose another name with --out, or --force" in " ".join(error.split())
+        assert call("blade", "--config", file, "-o", tmp_path / name, "--force")[0] == 0
+    assert load_run_file(tmp_path / "b.toml").motion == {"omega": 2.0}
+    (tmp_path / "b_BeamDyn.dat").unlink()  # but its blade file is there
+    assert "b_BeamDyn_Blade.dat is there" in "".join(
+        call("blade", "--config", file, "-o", tmp_path / "b_BeamDyn.dat")[2].split("\n")
+    )
+    code, _, error = call("blade", "--config", file, "-o", tmp_path / "b.csv")
+    assert code != 0
+    assert "the ending must be .toml or .dat" in " ".join(error.split())
+
+
+def test_a_file_of_beamdyn_is_a_config(call, file, tmp_path):
+    call("blade", "--config", file, "-o", tmp_path / "b_BeamDyn.dat")
+    code, out, error = call("blade", "--config", tmp_path / "b_BeamDyn.dat")
+    assert (code, error) == (0, "")
+    assert "first moment          10 kg m" in out

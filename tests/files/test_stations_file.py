@@ -149,12 +149,32 @@ def test_every_unit_of_every_column(loaded):
         assert np.array(found.line.twist) == pytest.approx(np.array(plain.line.twist), rel=1e-14)
 
 
-def test_a_csv_is_named_in_a_toml_file(loaded, tmp_path):
-    """And the remedy is good."""
-    loaded(PLANAR)
-    with pytest.raises(ValueError, match="is a CSV, which a TOML file names") as found:
-        load_beam(tmp_path / "stations.csv")
-    assert '[blade.stations] with file = "stations.csv"' in str(found.value)
+def test_a_csv_alone_is_the_blade_that_a_toml_file_names(loaded, tmp_path):
+    """And stays so whatever its letters are."""
+    blade = loaded(SPACE)
+    assert load_beam(tmp_path / "stations.csv") == blade.with_hub_radius(0.0)
+    (tmp_path / "stations.csv").rename(tmp_path / "S.CSV")
+    assert load_beam(tmp_path / "S.CSV") == blade.with_hub_radius(0.0)
+    with pytest.raises(ValueError, match="length beside file are for a blade file of ElastoDyn"):
+        loaded(SPACE, f"{TOML}length = 8.0\n")
+
+
+def test_elastodyn_s_columns_are_told_by_the_names_here(loaded):
+    """And so named, with EA and GJ, they are a blade."""
+    theirs = "BlFract,BMassDen (kg/m),FlpStff [Nm^2],EdgStff\n0,8,5e3,8e4\n1,4,1e3,2e4\n"
+    with pytest.raises(ValueError, match="has columns of ElastoDyn: name them as here") as refused:
+        loaded(theirs)
+    for told in (
+        "BlFract is x [m], the length times it",
+        "BMassDen (kg/m) is m [kg/m]",
+        "FlpStff [Nm^2] is EI2 [N m^2]",
+        "EdgStff is EI3 [N m^2]",
+        "EA [N] and GJ",
+    ):
+        assert told in str(refused.value)
+    ours = "x [m],m [kg/m],EI2 [N m^2],EI3 [N m^2],EA [N],GJ [N m^2]\n"
+    ours += "0,8,5e3,8e4,1e7,8e3\n10,4,1e3,2e4,1e7,8e3\n"
+    assert loaded(ours).length == 10.0
 
 
 def test_two_twists_are_refused(loaded):

@@ -1,15 +1,28 @@
 """Files for ParaView, read back by a reader that is not ours."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from analytic import Beam, Blade, SpinUp, Tube, periodic_orbits, spin_up_response, steady_state
+from analytic import (
+    Beam,
+    Blade,
+    SpinUp,
+    Theory,
+    Tube,
+    periodic_orbits,
+    spin_up_response,
+    steady_state,
+)
 from rotbeam_exu import dataset_of, load, save, simulate
+from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.files.vtk import save_vtk
-from rotbeam_exu.runs.shape import in_space, outer_strain, shape_of, sides_of
+from rotbeam_exu.runs.shape import in_space, outer_strain, shape_of, sides_of, strain_at
 
 meshio = pytest.importorskip("meshio")
 
+NREL = Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml"
 STATIONS = np.linspace(0.0, 8.0, 9)
 MOTION = SpinUp(omega=3.0, ramp_time=3.0)
 
@@ -165,3 +178,80 @@ def test_sides_of_other_blades_that_vary(beam):
         sides_of(table, at, height=[0.3, 0.2, 0.1])
     with pytest.raises(ValueError, match="width must not be negative, got -0.1 m"):
         sides_of(table, at, width=[0.3, -0.1])
+
+
+OVAL = np.array([(0.4, 0.0), (0.1, 0.1), (-0.5, 0.02), (-0.6, 0.0), (0.1, -0.08)])
+
+
+def test_a_blade_in_space_has_strain_and_stress_at_points_of_each_section(tmp_path):
+    """Of NREL's blade: M/EI about the center of tension, and at the center the axial force."""
+    blade = load_beam(NREL)
+    at = np.array([0.0, 10.0, 30.0])
+    loads = steady_state(blade, 1.0, gravity=9.81, theory=Theory(trapeze=False)).section_loads(at)
+    data = shape_of(loads)
+    scale = np.array([1.0, 0.8, 0.5])[:, None, None]
+    E = np.full((3, 5), 3e10)
+    E[:, 3] = 1e10
+    found = strain_at(data, scale * OVAL, E)
+    assert found["stress"].dims == ("station", "point")
+    assert found["stress"].attrs["units"] == "Pa"
+    section = blade.section
+    for k, x in enumerate(at):
+        S = section.matrices(np.array([x]))[0, 0]
+        force = np.concatenate((data["force"][k], data["moment"][k]))
+        strain = np.linalg.solve(S, force)
+        by_hand = [strain[0] + strain[4] * c3 - strain[5] * c2 for c2, c3 in scale[k] * OVAL]
+        assert found["strain"][k].to_numpy() == pytest.approx(by_hand, rel=1e-9)
+    assert found["stress"].to_numpy() == pytest.approx(E * found["strain"].to_numpy(), rel=1e-14)
+    one = strain_at(data.isel(station=1), 0.8 * OVAL)["strain"]
+    assert one.to_numpy() == pytest.approx(found["strain"][1].to_numpy(), rel=1e-14)
+    path = save_vtk(data, tmp_path / "b.pvd", points=scale * OVAL, youngs_modulus=E)
+    mesh = read(path, 0)
+    cells = [(one.type, len(one.data)) for one in mesh.cells]
+    assert cells == [("polygon", 1), ("quad", 10), ("polygon", 1)]
+    np.testing.assert_array_equal(mesh.point_data["stress"], found["stress"].to_numpy().ravel())
+    (quads,) = (one.data for one in mesh.cells if one.type == "quad")
+    sides = mesh.points[quads]
+    edge = np.linalg.norm(sides[:, 1] - sides[:, 0], axis=1)
+    known = np.linalg.norm(np.roll(OVAL, -1, axis=0) - OVAL, axis=1)
+    np.testing.assert_allclose(edge, np.concatenate((known, 0.8 * known)), rtol=1e-9)
+    # Outward: each normal points away from the line.
+    middle = sides.mean(axis=1) - mesh.points.reshape(3, 5, 3).mean(axis=1)[[0] * 5 + [1] * 5]
+    normal = np.cross(sides[:, 1] - sides[:, 0], sides[:, 3] - sides[:, 0])
+    assert len(set(np.sign(np.sum(normal * middle, axis=1)))) == 1
+
+
+def test_corners_of_a_rectangle_are_points_like_others(beam, shape):
+    height, width = 0.0367, 0.002
+    corners = 0.5 * np.array(
+        [(height, width), (-height, width), (-height, -width), (height, -width)]
+    )
+    largest = abs(strain_at(shape, corners)["strain"]).max("point")
+    np.testing.assert_allclose(largest, outer_strain(shape, height, width), rtol=1e-12)
+    assert strain_at(shape, corners)["strain"].dims == ("time", "station", "point")
+
+
+@pytest.mark.parametrize(
+    ("given", "error", "sentence"),
+    [
+        ({"points": [(0.1, 0.0), (0.0, np.nan)]}, ValueError, "points must be finite"),
+        ({"points": [0.1, 0.0]}, ValueError, r"points must be pairs \(c2, c3\)"),
+        ({"points": [OVAL] * 4}, ValueError, "at each of the 9 stations, got the shape"),
+        ({"points": np.zeros((0, 2))}, ValueError, "points must be pairs"),
+        ({"points": 1e3 * OVAL}, ValueError, "a point of a section is 600 m from the line"),
+        ({"points": [("a", "b")]}, TypeError, "points must be numbers"),
+        ({"points": np.ma.masked_array(OVAL, OVAL > 0.3)}, TypeError, "points must be numbers"),
+        ({"points": OVAL, "youngs_modulus": -1.0}, ValueError, "youngs_modulus must be positive"),
+        ({"points": OVAL, "youngs_modulus": [1e9] * 4}, ValueError, "as many as points, .*got"),
+        ({"points": OVAL, "youngs_modulus": True}, TypeError, "youngs_modulus must be numbers"),
+        ({"points": OVAL, "height": 0.1}, ValueError, "leave one out"),
+        ({"points": OVAL[:2]}, ValueError, "needs three points"),
+    ],
+)
+def test_points_that_are_none_are_refused(shape, tmp_path, given, error, sentence):
+    with pytest.raises(error, match=sentence):
+        save_vtk(shape, tmp_path / "b.pvd", **given)
+    if "leave" not in sentence and "three" not in sentence:
+        with pytest.raises(error, match=sentence):
+            strain_at(shape, **given)
+    assert not list(tmp_path.iterdir())

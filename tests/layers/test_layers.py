@@ -20,7 +20,7 @@ FLOORS = {
         {"motion", "theory"},
         {"parts", "section", "unit_blade", "loads", "ramps"},
         {"shape_functions", "section_shape", "station_section"},
-        {"blade", "section_shapes"},
+        {"blade", "meshed_section", "section_shapes"},
         {"beam", "blade_checks"},
         {"reduced", "exact"},  # neither knows the other
         {"spin_up"},

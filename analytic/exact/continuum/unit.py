@@ -21,7 +21,7 @@ from .vectors import Frames, about_axis, turned
 if TYPE_CHECKING:
     from ...blade import Blade
 
-_POINTS = 40  # on each panel, for the unloaded line
+_POINTS, _MORE = 40, 4  # on each panel and each cell, for the unloaded line
 _ALIKE = 1e-12  # of EI2 and EI3, as round-off leaves them
 
 
@@ -148,7 +148,7 @@ class SpaceUnit(UnitBlade):
 
         From the clamp and over L, in the root frame; axes in columns.
         """
-        grid = self.grid(_POINTS, 0)
+        grid = self.grid(_POINTS, _MORE)
         running = self.running(grid, x)
         frame = Frames(running, self.kinks).of(self.bent(grid.points)[:, None])[:, :, 0]
         count = grid.points.size
