@@ -180,7 +180,7 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
             "crossing_omega": _each("crossing", "omega", OMEGA),
             "crossing_frequency": _each("crossing", "frequency", "frequency [rad/s]"),
         },
-        "beam", (),
+        "beam", ("error",),
     ),
     PaperTable: (
         {

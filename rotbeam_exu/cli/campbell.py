@@ -30,6 +30,7 @@ def campbell(
     orders: Whole = 6,
     shape: SectionOptions = SectionOptions(),
     theory: TheoryPairs = None,
+    tolerance: Number | None = None,
     config: Path | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: Number | None = None,
@@ -38,7 +39,7 @@ def campbell(
     """Print frequencies over the speed, and where they cross k ω.
 
     Exact, extensible beam about its steady rotation; modes are tracked by shape, and resolved until
-    half as many functions again change no frequency by 1e-9. Lag and axial modes, and where the
+    more functions change no frequency by more than the tolerance. Lag and axial modes, and where the
     section out of the plane is known, flap and torsion.
 
     Parameters
@@ -53,6 +54,9 @@ def campbell(
         Number of modes, those lowest at the first speed.
     orders
         Lines k ω up to this k.
+    tolerance
+        Largest relative error of the frequencies; unless given 1e-9, and 1e-6 for a table of
+        stations.
     config
         TOML file with the beam; without it, the paper's beam.
     out
@@ -77,7 +81,9 @@ def campbell(
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
     with bar("modes"):
-        diagram = analytic.campbell(blade, speeds, count, orders, theory=theory_of(file, theory))
+        diagram = analytic.campbell(
+            blade, speeds, count, orders, theory=theory_of(file, theory), tolerance=tolerance
+        )
     if out is None:
         _print(diagram)
         return

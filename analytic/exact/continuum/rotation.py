@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
@@ -11,14 +11,15 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import FloatArray
+from ...arrays import ComplexArray, FloatArray
 from ...blade import Blade
 from ...blade_checks import require_blade, require_steady_state
 from ...input_checks import finite_number
 from ...loads import Load
-from ...methods.system import Tangent
+from ...methods.system import Tangent, reciprocal_modes
 from ...settled import refined
 from ...theory import Theory, require_theory
+from ..space.answers import forces_caused
 from .basis import StrainFunctions
 from .planar_rotation import AtConstantRate, require_shear, steady_rotation
 from .space import SpaceContinuum
@@ -34,6 +35,9 @@ _LARGEST_KICK = 0.1
 _STEPS = 60  # of speed and load
 _CHANGES, _EXACT = 12, 1e-12  # of Newton's method, and the last over the size of the state
 _CONTRACTION = 0.25
+_NEAR = 1e-3  # change over the size of the state, from which on the tangent serves
+_MODES = 6  # whose answers a refinement adds
+_MASSLESS = 1e-12  # 1/Ω of what has no inertia
 
 
 def space_continuum(blade: Blade, theory: Theory, functions: int) -> SpaceContinuum:
@@ -177,11 +181,15 @@ class SpaceBlade(AtConstantRate):
         # A moment that keeps its direction has no potential.
         values = np.linalg.eigvals if push is not None and push[2].any() else np.linalg.eigvalsh
         sizes: list[float] = []
+        by, stiffness = Driven(rate, push=push), np.empty((0, 0))
         for _ in range(_CHANGES):
-            tangent = self.model.tangent(q[None], still, still, Driven(rate, push=push))
-            if not values(tangent.stiffness[0]).real.min() > 0.0:
-                return None
-            change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
+            if sizes and sizes[-1] <= _NEAR * float(np.linalg.norm(q)):
+                residual = self.model.residual(q[None], still, still, by)[0]
+            else:
+                (residual,), (stiffness,), *_ = self.model.tangent(q[None], still, still, by)
+                if not values(stiffness).real.min() > 0.0:
+                    return None
+            change = np.linalg.solve(stiffness, residual)
             q = q - change
             sizes.append(float(np.linalg.norm(change)))
             if sizes[-1] <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
@@ -203,13 +211,54 @@ class SpaceBlade(AtConstantRate):
         return np.asarray(np.array(self.direction) @ self.model.tip_gradient(q))
 
     def refined(self) -> SpaceBlade:
-        """Return the blade on half as many functions again, the same each time."""
+        """Return the blade on more functions, the same each time."""
         return self._finer
 
     @cached_property
     def _finer(self) -> SpaceBlade:
-        finer = replace(self, model=self.model.refined())
+        return self.resolving(_MODES)
+
+    def resolving(self, modes: int) -> SpaceBlade:
+        """Return the blade on more functions, on a table with the answers of the lowest modes."""
+        functions = self.model.functions
+        caused = forces_caused(self, modes) if functions.blade.answers else None
+        finer = replace(self, model=SpaceContinuum(functions.refined(caused)))
         return replace(finer, near=self.lifted(self.equilibrium, finer))
+
+    @cached_property
+    def vibration(self) -> tuple[FloatArray, ComplexArray]:
+        """Frequencies, ascending, and shapes (n, modes) in columns.
+
+        Where lag goes without flap and torsion each block is solved alone: equal frequencies of
+        both would mix them.
+        """
+        functions = self.model.functions
+        if not functions.uncoupled or self.push is not None:
+            return self.vibration_of(np.arange(self.size))
+        turned, mirrored = functions.odd_by(mirror=False), functions.odd_by(mirror=True)
+        # The mirror through the plane keeps lag and axial motion, and turns flap and torsion around.
+        parts = [
+            self.vibration_of(np.flatnonzero(one))
+            for one in (turned == mirrored, turned != mirrored)
+        ]
+        frequencies, shapes = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
+        order = np.argsort(frequencies, kind="stable")
+        return frequencies[order], shapes[:, order]
+
+    @cached_property
+    def shares(self) -> FloatArray:
+        """Shares of flap, lag, torsion and axial motion in the modes' kinetic energy."""
+        return self.model.shares(self.equilibrium, self.vibration[1].T)
+
+    def vibration_of(self, moving: NDArray[np.intp]) -> tuple[FloatArray, ComplexArray]:
+        """Return the same where only some coordinates move."""
+        K, C, M = (part[0][np.ix_(moving, moving)] for part in self.linearized[1:])
+        # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
+        inverse, found = reciprocal_modes(0.5 * (K + K.T), -0.5j * (C - C.T), 0.5 * (M + M.T))
+        kept = inverse > _MASSLESS
+        shapes = np.zeros((self.size, np.count_nonzero(kept)), dtype=np.complex128)
+        shapes[moving] = found[:, kept]
+        return 1.0 / inverse[kept], shapes
 
     @cached_property
     def tip(self) -> FloatArray:
@@ -223,13 +272,15 @@ class SpaceBlade(AtConstantRate):
         return self.tangent(self.equilibrium[None], still, still)
 
 
-def finer_blades(first: SpaceBlade) -> Iterator[SpaceBlade]:
+def finer_blades(
+    first: SpaceBlade, finer: Callable[[SpaceBlade], SpaceBlade] = SpaceBlade.refined
+) -> Iterator[SpaceBlade]:
     """Yield a blade on more and more functions, up to the most that are taken, once at least.
 
     Many kinks or stations need more from the beginning: a panel lies between two of them.
     """
     most = max(MOST_FUNCTIONS, first.functions)
-    return refined(first, SpaceBlade.refined, lambda one: one.functions > most)
+    return refined(first, finer, lambda one: one.functions > most)
 
 
 def space_rotation(blade: Blade, omega: float, model: SpaceContinuum) -> SpaceBlade:

@@ -197,12 +197,29 @@ class SpaceContinuum:
         )
         return force, moment
 
+    def forces_caused(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
+    ) -> FloatArray:
+        """Return the forces on the strains of a table that a motion causes, (points, 6, samples)."""
+        at = self._state(q)
+        motion = self._motion(at, q_dot, q_ddot, by)
+        inner = np.concatenate(self._on_strains(at, *self._forces(at, motion, by)[1:]))
+        return self.functions.elastic(self.points, np.moveaxis(inner / self.weights, 2, 0))
+
+    def _on_strains(
+        self, at: State, force: FloatArray, moment: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment in the frame without twist, and twist's share of the force."""
+        inner_force, inner_moment = turned_back(at.frame, force), turned_back(at.frame, moment)
+        twist = at.K[0] + self.strains.twist
+        inner_moment[0] -= self.strains.trapeze * twist * inner_force[0]
+        return inner_force, inner_moment
+
     def _work(
         self, at: State, q: FloatArray, q_dot: FloatArray, force: FloatArray, moment: FloatArray
     ) -> FloatArray:
         own = self.strains
-        inner_force, inner_moment = turned_back(at.frame, force), turned_back(at.frame, moment)
-        inner_moment[0] -= own.trapeze * (at.K[0] + own.twist) * inner_force[0]
+        inner_force, inner_moment = self._on_strains(at, force, moment)
         work = np.sum(inner_moment @ own.K + inner_force @ own.gamma, axis=0)
         held = q @ self.functions.stiffness + q_dot @ self.functions.damping
         return np.asarray(held - work)
@@ -223,7 +240,7 @@ class SpaceContinuum:
     @property
     def bending(self) -> int:
         """Number of functions for each curvature."""
-        return self.functions.counts[0] // 2
+        return self.functions.reach[0] * self.blade.panel_count
 
     def tip(self, q: FloatArray) -> FloatArray:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""

@@ -12,7 +12,7 @@ from ...blade import Blade
 from ...blade_checks import warn_if_rpm
 from ...input_checks import rotation_speed, shown, whole_number
 from ...methods.system import inverse_eigenvalues
-from ...settled import refined, settled
+from ...settled import refined, require_tolerance, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..continuum.planar import Continuum
@@ -41,6 +41,7 @@ def linear_modes(
     only: Family | None = None,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 20,
+    tolerance: float | None = None,
 ) -> LinearModes:
     """Return the modes of the beam in steady rotation at `omega`, by name and ascending.
 
@@ -62,14 +63,18 @@ def linear_modes(
         Extension, shear, rotary inertia, trapeze effect.
     functions : int
         Least number of functions for the tangent's angle in the plane, at most 256; half as many
-        modes are resolved. They grow by half until half as many again change no frequency by 1e-9.
+        modes are resolved. They grow until more change no frequency by the tolerance.
+    tolerance : float, optional
+        Largest relative change of the frequencies by the last refinement; by default 1e-9, of a
+        blade from stations 1e-6. Short of it a warning comes with the answer, whose `error` tells
+        how far.
 
     Raises
     ------
     ValueError
         If the section out of the plane is needed and unknown; if `omega` is negative, not finite,
         or tears the beam; if the functions do not resolve `count` modes. If 256 functions do not
-        settle the frequencies: beyond about w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp
+        settle the frequencies to 1e-3: beyond about w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp
         becomes too thin, and within 1 % of the burst.
 
     Examples
@@ -80,15 +85,31 @@ def linear_modes(
     lag 1 lag 2 lag 3 [ 3.7304  23.01006 56.64712]
     """
     omega = rotation_speed(omega)
+    warn_if_rpm(blade, omega)
+    return modes_from(None, blade, omega, count, only, theory, functions, tolerance)
+
+
+def modes_from(
+    near: LinearModes | None,
+    blade: Blade,
+    omega: float,
+    count: int,
+    only: Family | None,
+    theory: Theory,
+    functions: int,
+    tolerance: float | None,
+) -> LinearModes:
+    """Return `linear_modes`, of a table with the functions that modes at a speed nearby took."""
     count = whole_number("count", count)
     require_theory(theory)
-    warn_if_rpm(blade, omega)
     require_family(only)
     section = blade.section
     unknown = section.out_of_plane is None and not section.at_stations
     if not lives_in_space(blade) and (only in ("lag", "axial") or unknown):
-        return _modes_in_plane(blade, omega, count, theory, functions, only)
-    return space_modes(_known_in_space(blade, only), omega, count, theory, only)
+        return _modes_in_plane(blade, omega, count, theory, functions, only, tolerance)
+    if near is not None and not near.model.blade.answers:
+        near = None
+    return space_modes(_known_in_space(blade, only), omega, count, theory, only, tolerance, near)
 
 
 def driven_modes(
@@ -98,6 +119,7 @@ def driven_modes(
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 20,
+    tolerance: float | None = None,
 ) -> LinearModes:
     """Return the lowest modes that a drive in the plane of rotation excites.
 
@@ -105,19 +127,25 @@ def driven_modes(
     """
     warn_if_rpm(blade, rotation_speed(omega))
     if lives_in_space(blade):
-        return space_modes(blade, omega, count, theory)
-    return _modes_in_plane(blade, omega, count, theory, functions, None)
+        return space_modes(blade, omega, count, theory, tolerance=tolerance)
+    return _modes_in_plane(blade, omega, count, theory, functions, None, tolerance)
 
 
 def _modes_in_plane(
-    blade: Blade, omega: float, count: int, theory: Theory, functions: int, only: Family | None
+    blade: Blade,
+    omega: float,
+    count: int,
+    theory: Theory,
+    functions: int,
+    only: Family | None,
+    tolerance: float | None,
 ) -> LinearModes:
     # Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
     first = steady_rotation(blade, omega, resolved_model(blade, count, theory, functions))
     modes, _, error = settled(
         lambda steady: modes_on(steady.model, blade, omega, count, theory, only),
         refined(first, SteadyBeam.refined, lambda most: most.functions > MOST_FUNCTIONS),
-        _SETTLED,
+        require_tolerance(tolerance, _SETTLED),
         lambda modes: np.log(modes.frequencies),
         f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
         "rotate slower",
@@ -209,7 +237,12 @@ def modes_on(
 
 @one_thread
 def damping_ratios(
-    blade: Blade, omega: float, count: int = 3, *, theory: Theory = BERNOULLI_EULER
+    blade: Blade,
+    omega: float,
+    count: int = 3,
+    *,
+    theory: Theory = BERNOULLI_EULER,
+    tolerance: float | None = None,
 ) -> FloatArray:
     """Return the damping ratios ζ of modes, (count,): of a planar blade those in its plane.
 
@@ -218,7 +251,7 @@ def damping_ratios(
 
     Parameters
     ----------
-    beam, omega, count, theory
+    beam, omega, count, theory, tolerance
         As for `linear_modes`.
 
     Raises
@@ -236,7 +269,9 @@ def damping_ratios(
     [0.00791 0.00831 0.02347]
     """
     omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
-    modes = driven_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
+    modes = driven_modes(
+        blade, omega, count, theory=theory, functions=max(20, 2 * count), tolerance=tolerance
+    )
     steady = rotating_blade(blade, omega, modes.model)
     at_rest = np.zeros((1, steady.size))
     tangent = steady.tangent(steady.equilibrium[None], at_rest, at_rest)

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...arrays import ComplexArray, FloatArray
 from ...blade import Blade
 from ...input_checks import points_of_beam
-from ...methods.system import reciprocal_modes
-from ...settled import settled
+from ...settled import require_tolerance, settled
 from ...theory import Theory
 from ..continuum.rotation import (
     FUNCTIONS,
@@ -24,7 +24,6 @@ from ..continuum.rotation import (
 )
 from ..continuum.space import SpaceContinuum
 
-_MASSLESS = 1e-12  # 1/Ω of what has no inertia
 _ONLY_TURNS = 1e-6  # displacement of the tip over the length, times its turn
 DIRECTIONS = {"lag": (0.0, 1.0, 0.0), "flap": (0.0, 0.0, 1.0)}
 """Directions of the tip, in the root frame, whose peak may be called the amplitude."""
@@ -45,6 +44,11 @@ def mode_names(shares: FloatArray) -> tuple[str, ...]:
     """Return the names of modes in ascending order, "lag 1" say, by their shares (count, 4)."""
     kinds = [FAMILIES[k] for k in np.argmax(shares, axis=1).tolist()]
     return tuple(f"{kind} {kinds[: i + 1].count(kind)}" for i, kind in enumerate(kinds))
+
+
+def places_of(names: Sequence[str], count: int, only: Family | None) -> list[int]:
+    """Return the places of at most so many of the lowest modes, of all or of one family."""
+    return [k for k, name in enumerate(names) if only is None or name.startswith(only)][:count]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,8 +122,7 @@ class LinearModes:
 
     def lowest(self, count: int, only: Family | None = None) -> LinearModes:
         """Return the lowest modes, of all or of one family."""
-        names = self.names
-        of = [k for k, name in enumerate(names) if only is None or name.startswith(only)][:count]
+        names, of = self.names, places_of(self.names, count, only)
         if len(of) < count:
             raise ValueError(
                 f"count is {count}, and the blade has {len(of)} {only or ''} modes: flap and "
@@ -135,14 +138,32 @@ class LinearModes:
 
 
 def space_modes(
-    blade: Blade, omega: float, count: int, theory: Theory, only: Family | None = None
+    blade: Blade,
+    omega: float,
+    count: int,
+    theory: Theory,
+    only: Family | None = None,
+    tolerance: float | None = None,
+    near: LinearModes | None = None,
 ) -> LinearModes:
-    """Return the lowest modes, of all or of one family, on more functions until they settle."""
-    model = space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
+    """Return the lowest modes, of all or of one family, on more functions until they settle.
+
+    On those of other modes `near` to begin with.
+    """
+    model = near.model if near else space_continuum(blade, theory, max(FUNCTIONS, 2 * count + 4))
+    first = space_rotation(blade, omega, model)
+
+    def finer(steady: SpaceBlade) -> SpaceBlade:
+        if only is None:
+            return steady.resolving(count)
+        return steady.resolving(
+            1 + max(places_of(mode_names(steady.shares), count, only), default=0)
+        )
+
     _, modes, error = settled(
         lambda steady: _modes_of(blade, omega, steady).lowest(count, only),
-        finer_blades(space_rotation(blade, omega, model)),
-        model.functions.blade.tolerance,
+        finer_blades(first, finer),
+        require_tolerance(tolerance, first.model.functions.blade.tolerance),
         lambda modes: np.log(modes.frequencies),
         f"the frequencies at omega = {omega:g} rad/s",
         "ask for fewer modes, or rotate slower",
@@ -170,13 +191,13 @@ def space_modes_on(
 
 
 def _modes_of(blade: Blade, omega: float, steady: SpaceBlade) -> LinearModes:
-    frequencies, shapes = _solved(steady)
+    frequencies, shapes = steady.vibration
     return LinearModes(
         blade=blade,
         omega=omega,
         theory=steady.model.functions.theory,
         frequencies=frequencies * blade.frequency_scale,
-        shares=steady.model.shares(steady.equilibrium, shapes.T),
+        shares=steady.shares,
         setting=0.0,
         error=math.nan,
         model=steady.model,
@@ -185,41 +206,11 @@ def _modes_of(blade: Blade, omega: float, steady: SpaceBlade) -> LinearModes:
     )
 
 
-def _solved(steady: SpaceBlade) -> tuple[FloatArray, ComplexArray]:
-    """Return the frequencies, ascending, and the shapes (n, modes) in columns.
-
-    Where lag goes without flap and torsion each block is solved alone: equal frequencies of both
-    would mix them.
-    """
-    functions = steady.model.functions
-    if not functions.uncoupled or steady.push is not None:
-        return _block(steady, np.arange(steady.size))
-    turned, mirrored = functions.odd_by(mirror=False), functions.odd_by(mirror=True)
-    # The mirror through the plane keeps lag and axial motion, and turns flap and torsion around.
-    parts = [
-        _block(steady, np.flatnonzero(one)) for one in (turned == mirrored, turned != mirrored)
-    ]
-    frequencies, shapes = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
-    order = np.argsort(frequencies, kind="stable")
-    return frequencies[order], shapes[:, order]
-
-
 def flap_shape(model: SpaceContinuum) -> FloatArray:
     """Return the first flap mode of a planar blade at rest, (n,), its tip 1 out of the plane."""
     at_rest = SpaceBlade(model, 0.0, DIRECTIONS["flap"])
-    shape = _block(at_rest, np.arange(1, model.functions.counts[0], 2))[1][:, 0].real
+    shape = at_rest.vibration_of(np.arange(1, model.functions.counts[0], 2))[1][:, 0].real
     return np.asarray(shape / (at_rest.gauge_gradient(at_rest.equilibrium[None])[0] @ shape))
-
-
-def _block(steady: SpaceBlade, moving: NDArray[np.intp]) -> tuple[FloatArray, ComplexArray]:
-    """Return the same where only some coordinates move."""
-    K, C, M = (part[0][np.ix_(moving, moving)] for part in steady.linearized[1:])
-    # x exp(iΩτ) obeys K + iΩC - Ω²M, with a skew C.
-    inverse, found = reciprocal_modes(0.5 * (K + K.T), -0.5j * (C - C.T), 0.5 * (M + M.T))
-    kept = inverse > _MASSLESS
-    shapes = np.zeros((steady.size, np.count_nonzero(kept)), dtype=np.complex128)
-    shapes[moving] = found[:, kept]
-    return 1.0 / inverse[kept], shapes
 
 
 def orbit_modes(
@@ -231,8 +222,8 @@ def orbit_modes(
     go with the sine, the others with the cosine: real shapes. Without it the motion is the real
     part of the shape times exp(iφ).
     """
-    frequencies, shapes = _solved(steady)
-    names = mode_names(steady.model.shares(steady.equilibrium, shapes.T))
+    frequencies, shapes = steady.vibration
+    names = mode_names(steady.shares)
     if steady.direction != DIRECTIONS[gauge]:
         steady = replace(steady, direction=DIRECTIONS[gauge], near=steady.equilibrium)
     odd, gradient = steady.odd, steady.gauge_gradient(steady.equilibrium[None])[0]
