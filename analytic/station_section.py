@@ -86,7 +86,7 @@ def _mass_of(columns: FloatArray, center: FloatArray) -> FloatArray:
 
 
 def about_centers(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return T (stations, 6, 6), by which strains, or velocities, are those at the centers; T⁻ᵀST⁻¹.
+    """Return T, by which strains, or velocities, are those at the centers, and T⁻ᵀ S T⁻¹.
 
     ε at the center of tension, where it does not couple with bending, and shear at the center of
     shear, where it does not couple with torsion; of a mass both are at its center.

@@ -38,9 +38,9 @@ def campbell(
 ) -> None:
     """Print frequencies over the speed, and where they cross k ω.
 
-    Exact, extensible beam about its steady rotation; modes are tracked by shape, and resolved until
-    more functions change no frequency by more than the tolerance. Lag and axial modes, and where the
-    section out of the plane is known, flap and torsion.
+    Exact, extensible beam about its steady rotation; modes are tracked by shape, and resolved to a
+    tolerance. Lag and axial modes, and where the section out of the plane is known, flap and
+    torsion.
 
     Parameters
     ----------

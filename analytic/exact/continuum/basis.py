@@ -18,7 +18,7 @@ from ...arrays import FloatArray, evaluated, slope_of
 from ...quadrature import Grid
 from ...shape_functions import shape_functions
 from ...theory import Theory
-from ..space.answers import Answers, beside
+from .answers import Answers, beside
 from .unit import SpaceUnit, trapeze_of
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
@@ -114,8 +114,10 @@ class StrainFunctions:
         """Return half as many functions again, one more at least; of a table see `beside`."""
         if self.blade.answers:
             return replace(self, answers=beside(self, caused))
-        more = (n + max(n // 2, 1) for n in (self.bending, self.torsion, self.axial))
-        return StrainFunctions(self.blade, self.theory, self.slenderness, *more)
+        bending, torsion, axial = (
+            n + max(n // 2, 1) for n in (self.bending, self.torsion, self.axial)
+        )
+        return replace(self, bending=bending, torsion=torsion, axial=axial)
 
     @cached_property
     def grid(self) -> Grid:

@@ -19,7 +19,7 @@ from ...loads import Load
 from ...methods.system import Tangent, reciprocal_modes
 from ...settled import refined
 from ...theory import Theory, require_theory
-from ..space.answers import forces_caused
+from .answers import forces_caused
 from .basis import StrainFunctions
 from .planar_rotation import AtConstantRate, require_shear, steady_rotation
 from .space import SpaceContinuum
@@ -66,7 +66,6 @@ def lives_in_space(blade: Blade, loads: Sequence[Load] = ()) -> bool:
     A setting angle mixes them where the stiffness out of the plane and in torsion is known.
     """
     require_blade(blade)
-    blade = blade
     turned = blade.setting_angle != 0.0 and blade.section.knows_space
     return turned or not blade.is_planar or any(load.leaves_plane for load in loads)
 
@@ -236,7 +235,7 @@ class SpaceBlade(AtConstantRate):
         if not functions.uncoupled or self.push is not None:
             return self.vibration_of(np.arange(self.size))
         turned, mirrored = functions.odd_by(mirror=False), functions.odd_by(mirror=True)
-        # The mirror through the plane keeps lag and axial motion, and turns flap and torsion around.
+        # The mirror through the plane keeps lag and axial motion, and turns the others around.
         parts = [
             self.vibration_of(np.flatnonzero(one))
             for one in (turned == mirrored, turned != mirrored)

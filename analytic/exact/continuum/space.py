@@ -200,7 +200,7 @@ class SpaceContinuum:
     def forces_caused(
         self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> FloatArray:
-        """Return the forces on the strains of a table that a motion causes, (points, 6, samples)."""
+        """Return the forces on the strains of a table a motion causes, (points, 6, samples)."""
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, by)
         inner = np.concatenate(self._on_strains(at, *self._forces(at, motion, by)[1:]))

@@ -81,6 +81,11 @@ class SpaceUnit(UnitBlade):
         onto[0, 5], onto[0, 4] = self.line.tension_offset[0], -self.line.tension_offset[1]
         return np.asarray(onto * soft[:, None] @ onto.T)
 
+    def elastic(self, x: FloatArray, theory: Theory) -> FloatArray:
+        """Return the part of forces that strains answer over all of them, (places, 6, 6): all."""
+        del theory
+        return np.tile(np.eye(6), (x.size, 1, 1))
+
     def inertia_about(self, x: FloatArray, slenderness: float) -> tuple[FloatArray, FloatArray]:
         """Return the centers of mass (3, places) from the line, and J about them (3, 3, places).
 
@@ -258,7 +263,6 @@ def trapeze_of(soft: FloatArray) -> FloatArray:
 
 def space_unit(blade: Blade) -> SpaceUnit:
     """Return a blade in space without dimensions; its section out of the plane is known."""
-    blade = blade
     unit, out, length = blade.unit, blade.section.out_of_plane, blade.length
     common: dict[str, Any] = {field.name: getattr(unit, field.name) for field in fields(unit)}
     common |= {

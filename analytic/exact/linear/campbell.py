@@ -60,7 +60,7 @@ class Campbell:
 
     Attributes
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omegas : ndarray (speeds,)
         Rotation speeds [rad/s].
     frequencies : ndarray (speeds, count)
@@ -175,7 +175,7 @@ def campbell(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omegas : array_like
         Rotation speeds [rad/s], ascending.
     count : int

@@ -52,7 +52,7 @@ def linear_modes(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Rotation speed ω [rad/s].
     count : int
@@ -73,9 +73,9 @@ def linear_modes(
     ------
     ValueError
         If the section out of the plane is needed and unknown; if `omega` is negative, not finite,
-        or tears the beam; if the functions do not resolve `count` modes. If 256 functions do not
-        settle the frequencies to 1e-3: beyond about w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp
-        becomes too thin, and within 1 % of the burst.
+        or tears the beam; if the functions do not resolve `count` modes, or 256 do not settle the
+        frequencies to 1e-3, as far beyond w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp
+        becomes too thin, or within 1 % of the burst.
 
     Examples
     --------
@@ -164,7 +164,6 @@ def _known_in_space(blade: Blade, only: Family | None) -> Blade:
 
     Flap of a planar blade does without it; its torsion is refused.
     """
-    blade = blade
     out = blade.section.out_of_plane
     rigid = out is not None and (out.torsion_ratio is None or math.isinf(out.torsion_ratio))
     if only == "torsion" and rigid:

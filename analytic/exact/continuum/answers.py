@@ -18,8 +18,8 @@ from ...arrays import ComplexArray, FloatArray
 from ...quadrature import Grid
 
 if TYPE_CHECKING:
-    from ..continuum.basis import StrainFunctions
-    from ..continuum.rotation import SpaceBlade
+    from .basis import StrainFunctions
+    from .rotation import SpaceBlade
 
 _SMALL = 1e-4  # size of a vibration, in which forces are linear
 _SEEN = 1e-6  # part of a strain that others lack: frequencies feel its square
@@ -38,7 +38,7 @@ class Answers:
     @property
     def count(self) -> int:
         """Number of functions."""
-        return self.forces.shape[2]
+        return int(self.forces.shape[2])
 
     def at(self, x: FloatArray) -> FloatArray:
         """Return the forces at `x`, (places, 6, count)."""
@@ -55,7 +55,8 @@ def forces_caused(steady: SpaceBlade, count: int) -> FloatArray:
     model, by, q = steady.model, steady.by(), steady.equilibrium
     frequencies, shapes = (part[..., :count] for part in steady.vibration)
     size = np.einsum("ik,ij,jk->k", shapes.conj(), model.functions.stiffness, shapes).real
-    parts = [model.forces_caused(q[None], *np.zeros((2, 1, q.size)), by)]
+    still = np.zeros((1, q.size))
+    parts = [model.forces_caused(q[None], still, still, by)]
     for phase in (1.0, 1.0j):
         moved: ComplexArray = _SMALL * phase * (shapes / np.sqrt(size)).T
         rates = 1j * frequencies[:, None] * moved
@@ -63,7 +64,7 @@ def forces_caused(steady: SpaceBlade, count: int) -> FloatArray:
             model.forces_caused(
                 q + sign * moved.real,
                 sign * rates.real,
-                -sign * frequencies[:, None] ** 2 * moved.real,
+                -sign * np.square(frequencies)[:, None] * moved.real,
                 by,
             )
             for sign in (1.0, -1.0)
