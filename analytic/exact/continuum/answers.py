@@ -9,17 +9,13 @@ further functions they leave an error in frequencies a thousand times smaller, a
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...quadrature import Grid
-
-if TYPE_CHECKING:
-    from .basis import StrainFunctions
-    from .rotation import SpaceBlade
 
 _SMALL = 1e-4  # size of a vibration, in which forces are linear
 _SEEN = 1e-6  # part of a strain that others lack: frequencies feel its square
@@ -47,8 +43,8 @@ class Answers:
         return _at(x, self.grid, self.forces)
 
 
-def forces_caused(steady: SpaceBlade, count: int) -> FloatArray:
-    """Return the forces of the steady state and the lowest modes, (points, 6, functions).
+def forces_caused(steady: Any, count: int) -> FloatArray:
+    """Return the forces of a `SpaceBlade`'s steady state and lowest modes, (points, 6, functions).
 
     Those of the modes at the phases of both parts of their shapes, each of unit elastic energy.
     """
@@ -73,8 +69,8 @@ def forces_caused(steady: SpaceBlade, count: int) -> FloatArray:
     return np.concatenate(parts, axis=2)
 
 
-def beside(functions: StrainFunctions, caused: FloatArray | None) -> Answers:
-    """Return what functions are made of beside a table's first polynomials, on a finer grid.
+def beside(functions: Any, caused: FloatArray | None) -> Answers:
+    """Return what `StrainFunctions` are made of beside first polynomials, on a finer grid.
 
     Answers so far; polynomials of higher degrees, a third more; and the forces caused, (points, 6,
     count), of answers on the functions. All but the first are orthonormal in flexibility to those

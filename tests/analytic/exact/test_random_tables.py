@@ -68,7 +68,7 @@ def test_fifty_stations_with_steps_of_three():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("theory", (Theory(), Theory(trapeze=False)), ids=str)
+@pytest.mark.parametrize("theory", [Theory(), Theory(trapeze=False)], ids=str)
 @pytest.mark.parametrize("sigma", SIGMAS)
 def test_forty_tables_are_answered(sigma, theory):
     for seed in range(40):
