@@ -184,7 +184,7 @@ class PointMass(Described):
     >>> from analytic import Beam, Blade, PointMass
     >>> beam = Beam.reference()
     >>> mass = PointMass(position=4.0, mass=0.5)
-    >>> blade = Blade(length=beam.length, section=beam.blade.section, point_masses=(mass,))
+    >>> blade = Blade(length=beam.length, section=beam.section, point_masses=(mass,))
     >>> print(f"{beam.omega_0:.4f} rad/s, with the mass {blade.frequencies_at_rest[0]:.4f} rad/s")
     2.9092 rad/s, with the mass 2.7190 rad/s
     """
@@ -263,7 +263,7 @@ class Damping(Described):
 
         Parameters
         ----------
-        blade : Beam or Blade
+        blade : Blade
         mode : int
             j, from 1 to 12.
         ratio : float

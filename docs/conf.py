@@ -55,7 +55,7 @@ suppress_warnings = [
 nitpicky = True
 nitpick_ignore_regex = [
     ("py:class", r"(?!analytic\.|rotbeam_exu\.).*"),
-    ("py:class", r".*\.(FloatArray|ComplexArray|Axial|Frame|OnError|Mesh|Profile|Blade)"),
+    ("py:class", r".*\.(FloatArray|ComplexArray|Axial|Frame|OnError|Mesh|Profile)"),
     ("py:class", r".*\.(S|D|C|_.*)"),
     ("py:(obj|data|exc|meth|func|attr)", r"(?!analytic\.|rotbeam_exu\.).*"),
 ]

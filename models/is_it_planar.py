@@ -43,7 +43,8 @@ print(limit, round_one, sep="\n")
 # section 1.36 times as high as wide, at 2 rad/s, whose flap is as fast as its lag: the tip whirls.
 # Black are the planar orbits; dashed is unstable.
 at_rest = backbone(strip, omega=0.0, functions=12)
-thick = backbone(beam.with_shape(Rectangle(ratio=1.36)), omega=2.0, functions=8)
+plank = beam.with_hub_radius(0.0).with_shape(Rectangle(ratio=1.36))  # of another material
+thick = backbone(plank, omega=2.0, functions=8)
 branches = [at_rest.leaving(0.0074, 0.0079, points=11), thick.leaving(0.2, 0.3, points=18)]
 
 _, axes = plt.subplots(1, 2, figsize=(7.0, 3.2), layout="constrained")

@@ -34,14 +34,12 @@ Column = tuple[Dims, str, Callable[[Any], Any]]
 """Dims, label with unit, and how the values come from the result."""
 
 
-def of_columns(
-    columns: Mapping[str, Column], blade: str, known: tuple[str, ...], result: Any
-) -> xr.Dataset:
+def of_columns(columns: Mapping[str, Column], known: tuple[str, ...], result: Any) -> xr.Dataset:
     """Return the Dataset of a result; modes and harmonics count from 1.
 
-    `blade` is the attribute that holds its beam, if any; `known` are those about all of it.
+    `known` are the attributes about all of it; its blade and theory are kept where it has them.
     """
-    about = blade_attributes(getattr(result, blade)) if blade else {}
+    about = blade_attributes(result.blade) if hasattr(result, "blade") else {}
     if isinstance(theory := getattr(result, "theory", None), Theory):
         about |= theory_attributes(theory)
     data = dataset(
@@ -98,14 +96,14 @@ _POINTS = _columns("point", amplitude="peak amplitude |q|/L", frequency="frequen
 _NAMES: Column = ("mode", "mode", lambda found: [*found.names])
 _FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
 
-COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
-    Orbits: (_ORBITS | _columns("orbit", **SWINGS), "beam", _OF_ORBITS),
+COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
+    Orbits: (_ORBITS | _columns("orbit", **SWINGS), _OF_ORBITS),
     BackboneBranch: (
         _POINTS | _columns("point", piece="0 on the main path, then the tongue's number"),
-        "beam", ("omega", "mode"),
+        ("omega", "mode"),
     ),
     LeavingBranch: (
-        _POINTS | _columns("point", **SWINGS), "beam", ("omega", "mode", "periods", "ended")
+        _POINTS | _columns("point", **SWINGS), ("omega", "mode", "periods", "ended")
     ),
     BackboneCurve: (
         {
@@ -114,32 +112,32 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
                 "first.coef", "coefficient", "first harmonic over the peak, of the same series"
             ),
         },
-        "beam", ("omega", "mode", "omega_n", "holds_up_to", "error"),
+        ("omega", "mode", "omega_n", "holds_up_to", "error"),
     ),
     LinearModes: (
         {"mode": _NAMES} | _FREQUENCY | {
             f"{name}_share": _part("shares", k, "mode", f"share of {name} in the kinetic energy")
             for k, name in enumerate(FAMILIES)
         },
-        "beam", ("omega", "error"),
+        ("omega", "error"),
     ),
     SteadyState: (
         {
             f"tip_{axis}": _part("tip", k, (), f"tip from the clamp, {axis} of its frame [m]")
             for k, axis in enumerate("xyz")
         } | _columns((), twist="turn of the tip's section by the load [rad]"),
-        "blade", ("omega", "force", "moment", "gravity", "error"),
+        ("omega", "force", "moment", "gravity", "error"),
     ),
     QuietRamps: (
         {"ramp_time": _own("ramp_times", "ramp", "quiet ramp time T [s]")} | _columns(
             "ramp", left="amplitude left over L", linear="the same by the closed form"
         ),
-        "beam", ("omega",),
+        ("omega",),
     ),
     SteadyOscillation: (
         _columns((), **OSCILLATION)
         | _columns("harmonic", harmonics="amplitude of the harmonic over L"),
-        "", ("cycles",),
+        ("cycles",),
     ),
     GrowthOutOfPlane: (
         {
@@ -154,7 +152,7 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
                 lambda found: np.stack((found.multipliers.real, found.multipliers.imag), axis=-1),
             ),
         },
-        "blade", ("omega", "mode"),
+        ("omega", "mode"),
     ),
     StabilityLimit: (
         {
@@ -165,7 +163,7 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
             "tongue_high": _each("tongue", "high", "amplitude |q|/L, to"),
             "tongue_growth": _each("tongue", "growth", "growth exponent [1/rad]"),
         },
-        "blade", ("omega", "mode"),
+        ("omega", "mode"),
     ),
     Campbell: (
         {
@@ -180,14 +178,14 @@ COLUMNS: dict[type, tuple[dict[str, Column], str, tuple[str, ...]]] = {
             "crossing_omega": _each("crossing", "omega", OMEGA),
             "crossing_frequency": _each("crossing", "frequency", "frequency [rad/s]"),
         },
-        "beam", (),
+        (),
     ),
     PaperTable: (
         {
             name: _each("row", name, name, None)
             for name in ("quantity", "printed", "derived", "difference", "note")
         },
-        "", ("number", "title"),
+        ("number", "title"),
     ),
 }  # fmt: skip
-"""Columns, the beam's attribute and those about all of it, by kind."""
+"""Columns, and the attributes about all of a result, by kind."""

@@ -42,7 +42,7 @@ def unit_beam(slenderness):
 def told(blade, inertia, *out_of_plane):
     """A blade whose section tells its rotary inertia in the plane, and these out of it."""
     section = replace(blade.section, rotary_inertia=inertia)
-    return replace(blade, section=section).with_section_out_of_plane(*out_of_plane)
+    return blade.with_section(section).with_section_out_of_plane(*out_of_plane)
 
 
 def clamped_basis(count, x, order=2):

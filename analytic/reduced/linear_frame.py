@@ -97,14 +97,14 @@ def linear_response(
     warn_if_rpm(blade, spin_up.fastest)
     time = times_from_rest(times)
     along = points_of_beam("points", points, blade.length)
-    blade = blade.unit
-    of, scale = blade_functions(blade, _FUNCTIONS), blade.frequency_scale
-    softening = -(blade.setting**2) * (of.mass - of.turning)
+    unit, scale = blade.unit, blade.frequency_scale
+    of = blade_functions(unit, _FUNCTIONS)
+    softening = -(unit.setting**2) * (of.mass - of.turning)
     turned = of.centrifugal if foreshortening else softening
     # The modes after the ramp, or at rest: more would cost shorter steps, for 5e-4 of q.
     _, modes = of.modes(spin_up.fastest / scale * foreshortening, _MODES)
     bending, rotation = (modes.T @ part @ modes for part in (of.bending, turned))
-    lever = blade.setting * of.euler @ modes
+    lever = unit.setting * of.euler @ modes
 
     def derivative(t: float, state: FloatArray) -> FloatArray:
         """Return what solves q̈ + (bending + θ̇² rotation) q = -θ̈ lever, times in 1/√(EI/mL³)."""

@@ -25,7 +25,7 @@ class ReducedModel:
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Rotation speed ω [rad/s].
     variant : Variant

@@ -37,7 +37,7 @@ def reduced_model(blade: Blade, omega: float, variant: str | Variant = "FrE") ->
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Rotation speed ω [rad/s], zero or positive.
     variant : str or Variant
@@ -131,9 +131,9 @@ def warn_beyond_range(model: ReducedModel) -> None:
     w_bar = omega / scale
     if omega >= blade.burst_speed:
         warn(
-            f"omega = {omega:g} rad/s is above {blade.burst_speed:.6g} rad/s, at which the rotation "
-            f"stretches this beam without bound: {variant.name} does not know of it and oscillates "
-            f"about a steady state that the beam does not have; rotate slower"
+            f"omega = {omega:g} rad/s is above {blade.burst_speed:.6g} rad/s, at which the "
+            f"rotation stretches this beam without bound: {variant.name} does not know of it and "
+            "oscillates about a steady state that the beam does not have; rotate slower"
         )
     elif variant.coriolis:
         _warn_if_extended(blade, w_bar, model.lambda_omega)

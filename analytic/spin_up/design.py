@@ -162,7 +162,7 @@ def design_ramp(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Speed after the ramp [rad/s].
     duration : float

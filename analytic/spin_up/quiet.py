@@ -29,7 +29,7 @@ class QuietRamps:
 
     Attributes
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Speed after the ramp [rad/s].
     ramp_times : ndarray (count,)
@@ -58,7 +58,7 @@ def quiet_ramp_times(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Speed after the ramp [rad/s].
     longest : float, optional

@@ -127,7 +127,7 @@ def residual_amplitude(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     spin_up : SpinUp, FourierRamp or SpeedTable
     ramp_times : array_like, optional
         Durations [s] of the same motion, stretched in time; otherwise its own.

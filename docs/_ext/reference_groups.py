@@ -25,7 +25,7 @@ GROUPS = (
     _group(
         "Beam and blade",
         "The rotating body: its lengths, sections, masses and damping.",
-        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Tube Blade Theory",
+        analytic="Beam Blade Section PointMass Damping Rectangle Ellipse Tube Theory",
         analytic__section="OutOfPlane",
     ),
     _group(
@@ -47,7 +47,7 @@ GROUPS = (
         analytic="periodic_orbits AmplitudeNotReachedError backbone backbone_curve",
         analytic__exact__free__orbits="Orbits",
         analytic__exact__free__backbone="Backbone",
-        analytic__exact__beam__state="BeamState",
+        analytic__exact__continuum__state="BeamState",
         analytic__exact__free__curve="BackboneCurve",
         analytic__exact__free__branches="BackboneBranch",
         analytic__exact__free__leaving="LeavingBranch",
@@ -65,7 +65,7 @@ GROUPS = (
         "The transient, exact and linear; the residual vibration, and ramps that avoid it.",
         analytic="spin_up_response residual_amplitude quiet_ramp_times design_ramp linear_response",
         analytic__exact__driven__response="SpinUpResponse",
-        analytic__exact__beam__state="SectionLoads",
+        analytic__exact__continuum__state="SectionLoads",
         analytic__spin_up__quiet="QuietRamps",
         analytic__reduced__linear_frame="LinearResponse",
     ),
@@ -73,7 +73,7 @@ GROUPS = (
         "Out of the plane",
         "Whether motion in the plane of rotation stays there.",
         analytic="stability_limit",
-        analytic__exact__plane__growth="GrowthOutOfPlane",
+        analytic__exact__stability__growth="GrowthOutOfPlane",
         analytic__exact__free__stability_limit="StabilityLimit Tongue",
     ),
     _group(
@@ -115,7 +115,6 @@ GROUPS = (
 )
 
 DATA = {
-    "analytic.Blade": "What theory and simulation take: a `Beam` or a `Blade`.",
     "analytic.VARIANTS": "The variants of the reduced model by name: CI, CE, FrI, FrE and, by "
     "polynomials, P3, P4 and P5 of the paper; FrC, FrM and FrM5 of this package.",
 }

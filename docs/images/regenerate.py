@@ -72,7 +72,7 @@ def softening_by_plane() -> Axes:
 def twisted() -> Axes:
     """Return the views of a twisted, coned blade on a hub, 2.2 s after the start of its spin-up."""
     blade = Beam.reference().with_section_out_of_plane(0.25, 0.2).with_twist(0.8)
-    blade = blade.with_precone(0.15).blade.with_hub_radius(0.8)
+    blade = blade.with_precone(0.15).with_hub_radius(0.8)
     times, points = np.linspace(0.0, 5.0, 51), np.linspace(0.0, blade.length, 25)
     motion = SpinUp(omega=4.0, ramp_time=3.0)
     found = spin_up_response(blade, motion, times, tolerance=1e-3, points=points)

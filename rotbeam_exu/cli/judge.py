@@ -177,7 +177,7 @@ def verify(*, element: list[str] | None = None, config: Config = None) -> None:
     entries = own or entries_at_hand()
     if config:
         entries = [replace(entry, step=motion.step) for entry in entries]
-    mine: dict[str, Any] = {"beam": file.blade, "spin_up": motion.spin_up} if config else {}
+    mine: dict[str, Any] = {"blade": file.blade, "spin_up": motion.spin_up} if config else {}
     found = []
     with counter("verifying") as progress:
         for entry in entries:

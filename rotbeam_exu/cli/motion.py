@@ -107,7 +107,7 @@ def configured(config: Path | None, *uses: str) -> RunFile:
     """
     file = RunFile(blade=Beam.reference()) if config is None else load_run_file(config)
     kept: dict[str, Any] = {}
-    for name in (one.name for one in fields(file) if one.name not in ("beam", *uses)):
+    for name in (one.name for one in fields(file) if one.name not in ("blade", *uses)):
         given = getattr(file, name)
         keys = [use.removeprefix(f"{name}.") for use in uses if use.startswith(f"{name}.")]
         if given and not keys:

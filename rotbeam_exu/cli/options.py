@@ -188,8 +188,8 @@ class SectionOptions:
             return blade if kind is None else blade.with_shape(kind())
         if kind is None or "ratio" not in (field.name for field in fields(kind)):
             raise ValueError("--ratio is height over width: give it with a --section that has both")
-        # With another material than the beam's, of which the blade knows none.
-        return blade.with_shape(kind(ratio=self.ratio))
+        # Of another material than a beam's: what is set on a hub is a Blade, whose area is free.
+        return blade.with_hub_radius(blade.hub_radius).with_shape(kind(ratio=self.ratio))
 
 
 def option_of(kind: type[Load]) -> str:

@@ -117,8 +117,8 @@ def compare(
 
     require_exudyn()
     file = configured(config, "motion")
-    blade = file.blade.uniform
-    if blade is None:
+    blade = file.blade
+    if not isinstance(blade, analytic.Beam):
         raise ValueError(
             "the paper's models, which compare needs, are for the uniform beam of [beam] only: for "
             "a [blade] take rotbeam backbone --variant FrM --exact"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from analytic.blade_checks import require_planar
 
 import analytic
 from analytic import Blade, SpinUp
+from analytic.blade_checks import require_planar
 from analytic.input_checks import positive, whole_number
 
 from ..fem.lazily import require_exudyn

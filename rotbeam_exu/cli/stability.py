@@ -6,9 +6,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from analytic.blade_checks import require_planar, undamped
 
 import analytic
+from analytic.blade_checks import require_planar, undamped
 from analytic.input_checks import not_negative
 
 from ..files.result_tables import parts

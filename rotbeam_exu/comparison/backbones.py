@@ -146,7 +146,7 @@ def figure_14(
 
     Parameters
     ----------
-    blade : Beam, optional
+    blade : Blade, optional
         By default the paper's.
     omegas, ramp_times : sequences of float
         Grid of the spin-ups [rad/s], [s].

@@ -48,7 +48,7 @@ def residual(
 
     Parameters
     ----------
-    blade : Beam or Blade, optional
+    blade : Blade, optional
         By default the paper's beam.
     omega : float
         Speed after the ramp [rad/s].
@@ -149,7 +149,7 @@ def softening_map(blade: Blade | None = None) -> xr.Dataset:
 
     Parameters
     ----------
-    blade : Beam or Blade, optional
+    blade : Blade, optional
         By default the paper's beam; its own hub radius is replaced.
 
     Returns

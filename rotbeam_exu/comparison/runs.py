@@ -128,7 +128,7 @@ def figure_15(
 
     Parameters
     ----------
-    blade : Beam, optional
+    blade : Blade, optional
         By default the paper's.
     omega, ramp_time : float
         The spin-up [rad/s], [s]. The print does not say which T it shows.

@@ -73,7 +73,7 @@ def explorer_data(
 
     Parameters
     ----------
-    blade : Beam or Blade, optional
+    blade : Blade, optional
         By default the paper's. The paper's models do not describe a blade.
     omegas : sequence of float
         Rotation speeds [rad/s], ascending in equal steps.

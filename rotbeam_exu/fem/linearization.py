@@ -9,10 +9,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-from analytic.blade_checks import require_blade, require_steady_state, undamped, warn_if_rpm
 
 from analytic import Blade
 from analytic.arrays import ComplexArray, FloatArray
+from analytic.blade_checks import require_blade, require_steady_state, undamped, warn_if_rpm
 from analytic.input_checks import rotation_speed, whole_number
 from analytic.loads import Load
 from analytic.methods.system import inverse_eigenvalues
@@ -180,7 +180,7 @@ def natural_frequencies(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Steady angular velocity ω [rad/s].
     element, elements

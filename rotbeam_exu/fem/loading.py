@@ -52,7 +52,7 @@ class Loading:
         of_length = sparse.csr_array(mass.shape)
         if external or any(onto == "length" for _, onto in forces):
             section = replace(blade.section, mass_per_length=1.0, rotary_inertia=0.0)
-            light = replace(blade, section=section, point_masses=())
+            light = replace(blade.with_section(section), point_masses=())
             of_length = mass_matrix(model, light, elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
         acted_on = {"mass": mass, "length": of_length, "tip": at_tip}

@@ -143,7 +143,7 @@ def add_rotating_beam(
     Parameters
     ----------
     mbs : exudyn.MainSystem
-    blade : Beam or Blade
+    blade : Blade
         In the units of the system, SI as a rule.
     clamp : SpinUp, FourierRamp, SpeedTable, SteadyRotation or MarkerIndex
         Angle over time; or a MarkerBodyRigid on a body of yours, such as a hub that turns freely or

@@ -9,11 +9,11 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from analytic.blade_checks import require_planar, warn_if_rpm
 from numpy.typing import ArrayLike
 
 from analytic import Blade, SteadyRotation, linear_modes
 from analytic.arrays import FloatArray
+from analytic.blade_checks import require_planar, warn_if_rpm
 from analytic.exact.continuum.planar_rotation import stretched_state
 from analytic.exact.continuum.rotation import require_bent
 from analytic.exact.continuum.state import BeamState, straight_state
@@ -61,7 +61,7 @@ def simulate(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
         The beam; in space with a section out of the plane, as ``beam.with_shape(Rectangle())``.
     spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
         Prescribed rotation of the clamped end: Eq. 1, another change of the speed, or a constant
@@ -245,7 +245,7 @@ def kicked(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     kick : float
         Deflection of the tip out of the plane over L.
     planar : callable, optional

@@ -60,7 +60,7 @@ class _Shown:
                 "nothing to animate: ask spin_up_response for points along the beam, or simulate "
                 f"for stations, got {stations} of them at {times} times"
             )
-        self.data, self.blade = data, beam_of(data.attrs).blade
+        self.data, self.blade = data, beam_of(data.attrs)
         self.motion = cast(SpeedChange, motion_of(data.attrs))
         self.time = np.asarray(data["time"].to_numpy())
         self.fine = np.linspace(self.time[0], self.time[-1], _FINER * (times - 1) + 1)

@@ -179,7 +179,7 @@ def _blade(table: dict[str, Any], folder: Path) -> Blade:
             section["out_of_plane"] = OutOfPlane(**section["out_of_plane"])
         parts["section"] = Section(**section)
     point_masses = tuple(PointMass(**one) for one in masses)
-    blade = _shaped(Blade(**parts, line=Line(**line), point_masses=point_masses), shape).blade
+    blade = _shaped(Blade(**parts, line=Line(**line), point_masses=point_masses), shape)
     if "ratio" in damping:
         return blade.with_damping(Damping.from_ratio(blade, 1, damping["ratio"]))
     return blade.with_damping(Damping(**damping))

@@ -11,7 +11,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import Blade
+from analytic import Beam, Blade
 from analytic.arrays import FloatArray
 
 from ..lazily import xr
@@ -112,8 +112,8 @@ def _grid(data: xr.Dataset, place: FloatArray, section: FloatArray, offsets: Flo
     }
     values = {name: np.repeat(one, corners, axis=0) for name, one in values.items()}
     values["strain"] = (data["strain"].to_numpy()[:, None] + bent).ravel()
-    if "beam_youngs_modulus" in data.attrs:
-        values["stress"] = data.attrs["beam_youngs_modulus"] * values["strain"]
+    if isinstance(blade := beam_of(data.attrs), Beam):
+        values["stress"] = blade.youngs_modulus * values["strain"]
     points = place[:, None] + offsets @ np.swapaxes(section[..., 1:], -1, -2)
     joined = corners * np.arange(cells)[:, None] + np.arange(2 * corners)
     kind = np.full(cells, _LINE if corners == 1 else _HEXAHEDRON, np.uint8)

@@ -9,7 +9,7 @@ from dataclasses import asdict, fields
 from importlib import metadata
 from typing import Any
 
-from analytic import Beam, Blade, SpinUp, SteadyRotation
+from analytic import Blade, SpinUp, SteadyRotation
 from analytic.description import describe, from_description
 from analytic.loads import Load
 from analytic.motion import Motion
@@ -21,20 +21,16 @@ _UNKNOWN = "unknown: what is out of the plane of bending is not computed, and ze
 
 
 def beam_of(attrs: Mapping[Any, Any]) -> Blade:
-    """Return the beam or blade that the attributes of a run describe."""
-    if "blade" in attrs:
-        return from_description(json.loads(attrs["blade"]), Blade)
-    return Beam(**{field.name: float(attrs[f"beam_{field.name}"]) for field in fields(Beam)})
+    """Return the blade that the attributes of a run describe."""
+    return from_description(json.loads(attrs["blade"]), Blade)
 
 
 def blade_attributes(blade: Blade) -> dict[str, Any]:
-    """Return the attributes by which a run says which beam it is; `beam_of` reads them.
+    """Return the attributes by which a run says which blade it is; `beam_of` reads them.
 
     They say too if the section out of the plane of bending is not known.
     """
     known = {} if blade.section.knows_space else {"section_out_of_plane": _UNKNOWN}
-    if type(blade) is Beam:
-        return {f"beam_{field.name}": getattr(blade, field.name) for field in fields(Beam)} | known
     return {"blade_length": blade.length, "blade": json.dumps(describe(blade)), **known}
 
 

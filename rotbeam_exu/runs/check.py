@@ -6,10 +6,10 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from analytic.blade_checks import require_steady_state
 
 from analytic import Blade
 from analytic.arrays import FloatArray
+from analytic.blade_checks import require_steady_state
 from analytic.exact.linear.modes import driven_modes
 from analytic.warning import warn
 

@@ -70,7 +70,7 @@ def in_space(data: xr.Dataset) -> tuple[FloatArray, FloatArray]:
     From the axis of rotation, z along it; x is the clamp's line at the angle zero. Without an
     `angle` in the data the clamp rests there.
     """
-    blade = beam_of(data.attrs).blade
+    blade = beam_of(data.attrs)
     angle = data["angle"].to_numpy() if "angle" in data else np.zeros(data.sizes["time"])
     c, s = math.cos(blade.line.precone), math.sin(blade.line.precone)
     turn = in_plane_of_bending(angle, 0.0) @ np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
@@ -97,7 +97,7 @@ def outer_strain(data: xr.Dataset, height: ArrayLike, width: ArrayLike = 0.0) ->
         If one number is given for a blade whose height or width varies.
     """
     at = data["station"]
-    sides = sides_of(beam_of(data.attrs).blade, at.to_numpy(), width=width, height=height)
+    sides = sides_of(beam_of(data.attrs), at.to_numpy(), width=width, height=height)
     by_axis = xr.DataArray(sides.reshape(*at.shape, 2), dims=(*at.dims, "section_axis"))
     bent = (abs(data["curvature"].isel(section_axis=[1, 2])) * by_axis).sum("section_axis")
     strain: xr.DataArray = abs(data["strain"]) + 0.5 * bent

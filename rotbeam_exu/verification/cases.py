@@ -69,7 +69,7 @@ class Case:
     title : str
         In a few words.
     asked : Asked
-    blade : Beam or Blade
+    blade : Blade
         Damping included.
     motion : SpinUp or SteadyRotation, optional
         How the clamp turns, of a history.

@@ -129,7 +129,7 @@ def verify(
     ----------
     entry : Entry
         The code, its meshes and its step.
-    blade : Beam, optional
+    blade : Blade, optional
         The paper's by default, whose cases L, S1, S2, O and S4 are then judged.
     spin_up : SpinUp, optional
         A single one to be judged instead; of a beam that is given ω = 6 rad/s in T = 3 s.

@@ -35,7 +35,7 @@ STRIP = BEAM.with_shape(Rectangle())
 DAMPED = BEAM.with_damping(Damping(external=0.1))
 PUSH = TipForce(amplitude=0.5)
 SLOW = SpinUp(omega=2.0, ramp_time=1.0)
-SECTION = BEAM.blade.section
+SECTION = BEAM.section
 
 # What a public function needs beside the beam; each is refused for its beam before.
 OTHERS = {
@@ -55,7 +55,7 @@ OF_A_BEAM = [
     for package in (analytic, rotbeam_exu)
     for name in package.__all__
     if inspect.isfunction(getattr(package, name))
-    and next(iter(inspect.signature(getattr(package, name)).parameters), "") in ("beam", "blade")
+    and next(iter(inspect.signature(getattr(package, name)).parameters), "") == "blade"
 ]
 
 

@@ -29,7 +29,7 @@ def test_a_taper_has_the_inertia_of_its_own_sections():
     )
     heavy = first_frequency(blade, Theory(rotary_inertia=True))
     assert heavy == pytest.approx(
-        first_frequency(replace(blade, section=own), BERNOULLI_EULER), rel=1e-12
+        first_frequency(blade.with_section(own), BERNOULLI_EULER), rel=1e-12
     )
     assert heavy < first_frequency(blade, BERNOULLI_EULER)
 
@@ -38,17 +38,17 @@ def test_inertia_that_the_section_says_stays():
     said = Section(
         axial_stiffness=1e3, bending_stiffness=1.0, mass_per_length=1.0, rotary_inertia=0.1
     )
-    blade = replace(STUBBY.blade, section=said)
+    blade = STUBBY.with_section(said)
     heavy = first_frequency(blade, Theory(rotary_inertia=True))
     assert heavy == first_frequency(blade, BERNOULLI_EULER)
 
 
 def test_a_section_without_one_density_is_refused():
-    section = replace(STUBBY.blade.section, mass_per_length=(1.0, -0.5))
-    blade = replace(STUBBY.blade, section=section)
+    section = replace(STUBBY.section, mass_per_length=(1.0, -0.5))
+    blade = STUBBY.with_section(section)
     with pytest.raises(ValueError, match="give Section\\(rotary_inertia"):
         first_frequency(blade, SHEARED)
-    remedied = replace(blade, section=replace(section, rotary_inertia=(1e-3, -5e-4)))
+    remedied = blade.with_section(replace(section, rotary_inertia=(1e-3, -5e-4)))
     assert first_frequency(remedied, SHEARED) > 0.0
 
 

@@ -41,7 +41,7 @@ def test_a_sentence_a_table_and_a_figure(call, tmp_path, beam, monkeypatch):
     (tongue,) = [line for line in out.partition("Tongues")[2].splitlines() if " 0.2955 " in line]
     assert "sum" in tongue
     assert " 0.3532 " in tongue
-    blade = beam.with_shape(Rectangle(ratio=3.0))
+    blade = beam.with_hub_radius(0.0).with_shape(Rectangle(ratio=3.0))
     exact = periodic_orbits(blade, 2.0, [0.3, 0.36]).out_of_plane()
     row = next(line for line in out.splitlines() if line.startswith("│   0.3"))
     assert f"{exact.growth_rate[0]:.4g}" in row

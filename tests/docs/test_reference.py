@@ -31,7 +31,7 @@ PLAIN = {
         "rotbeam_exu.SimulationError"
     ),
     "a type, a list of names, a protocol": (
-        "analytic.Blade analytic.VARIANTS rotbeam_exu.fem.elements.Formulation"
+        "analytic.VARIANTS rotbeam_exu.fem.elements.Formulation"
     ),
 }
 """Names without an example, by the reason."""

@@ -23,11 +23,11 @@ ALIKE = BEAM.with_section_out_of_plane(1.0, 0.8)
 
 
 def damped(blade, element, **damping):
-    return {"beam": blade.with_damping(Damping(**damping)), "element": element}
+    return {"blade": blade.with_damping(Damping(**damping)), "element": element}
 
 
 def in_space(blade, **options):
-    return {"beam": blade, "element": "space_exact", **options}
+    return {"blade": blade, "element": "space_exact", **options}
 
 
 @pytest.mark.parametrize(
@@ -45,11 +45,14 @@ def in_space(blade, **options):
         ({"element": "cabel"}, "unknown element 'cabel'; known are 'cable', .*'space_exact'"),
         ({"frame": "lab"}, "unknown frame 'lab'; known are 'inertial' and 'rotating'"),
         # Blades that an element does not model.
-        ({"beam": BEAM.with_setting_angle(0.3)}, "the cosine 0.9553: take frame='rotating'"),
-        ({"beam": BEAM.with_point_mass(0.1, 3.3)}, "take a number of elements that puts one"),
-        ({"beam": BEAM.with_hub_radius(1.0), "element": "linear"}, "hub: take 'cable', 'exact' or"),
+        ({"blade": BEAM.with_setting_angle(0.3)}, "the cosine 0.9553: take frame='rotating'"),
+        ({"blade": BEAM.with_point_mass(0.1, 3.3)}, "take a number of elements that puts one"),
         (
-            {"beam": BEAM.with_taper(0.1), "element": "substructures"},
+            {"blade": BEAM.with_hub_radius(1.0), "element": "linear"},
+            "hub: take 'cable', 'exact' or",
+        ),
+        (
+            {"blade": BEAM.with_taper(0.1), "element": "substructures"},
             "has a variable section: take",
         ),
         (damped(BEAM, "ancf3", bending=0.01), "damping: take 'cable' or 'exact', or external"),
@@ -59,15 +62,15 @@ def in_space(blade, **options):
         (damped(BEAM, "linear", external=0.01), "has damping: take 'cable', 'exact' or 'ancf3'"),
         (damped(BEAM, "substructures", bending=0.01), "for the uniform beam .* has damping"),
         # In space.
-        ({"beam": STRIP, "element": "space_cable"}, "element='space_exact'"),
+        ({"blade": STRIP, "element": "space_cable"}, "element='space_exact'"),
         (in_space(STRIP, frame="rotating"), "frame='inertial'"),
         (in_space(BEAM), r"with_section_out_of_plane\(bending_ratio"),
         (in_space(STRIP.with_section_out_of_plane(1.0, math.inf)), "element='space_cable'"),
         (in_space(STRIP.with_tip_mass(0.5)), "an element of the plane, or analytic.spin_up"),
         (in_space(STRIP.with_tip_mass(0.5).with_twist(0.1)), "masses: take analytic.spin_up_resp"),
-        ({"beam": STRIP.with_twist(0.1)}, "take element='space_exact'"),
-        ({"beam": STRIP.with_tip_mass(0.5).with_twist(0.1)}, "take analytic.spin_up_response"),
-        ({"beam": STRIP.with_kink(4.0, 0.1)}, "kink or offset: take analytic.spin_up_response"),
+        ({"blade": STRIP.with_twist(0.1)}, "take element='space_exact'"),
+        ({"blade": STRIP.with_tip_mass(0.5).with_twist(0.1)}, "take analytic.spin_up_response"),
+        ({"blade": STRIP.with_kink(4.0, 0.1)}, "kink or offset: take analytic.spin_up_response"),
         (in_space(STRIP.with_offsets(mass=(0.01, 0.0))), r"blade.with_offsets\(\)"),
         (in_space(STRIP.with_twist(0.1), initial_state=kicked(STRIP)), "in its plane"),
         ({"loads": [Gravity(tilt=1.0)]}, "'cable' stays in the plane of rotation"),
@@ -90,7 +93,7 @@ def in_space(blade, **options):
 )
 def test_simulate_refuses(spin_up, options, sentence):
     with pytest.raises((ValueError, TypeError), match=sentence):
-        simulate(**{"beam": BEAM, "spin_up": spin_up, **options})
+        simulate(**{"blade": BEAM, "spin_up": spin_up, **options})
 
 
 def test_natural_frequencies_refuse(beam):

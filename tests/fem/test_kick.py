@@ -85,7 +85,7 @@ def test_a_kicked_tube_swings_as_exudyn_has_it():
         (TUBE, 0.2, "at most 0.1 of the length"),
         (TUBE, np.nan, "must be finite"),
         (Beam.reference(), 1e-3, r"kick.*with_section_out_of_plane\("),
-        (TUBE.blade.with_twist(0.1), 1e-3, "out of its plane, and this one"),
+        (TUBE.with_twist(0.1), 1e-3, "out of its plane, and this one"),
     ],
 )
 def test_kicks_that_are_refused(blade, kick, sentence):

@@ -318,11 +318,11 @@ class Heavy(Beam):
             {"spin_up": Rippled(rotation=SteadyRotation(omega=1.0), amplitude=1.0, frequency=1.0)},
             "a ripple of it is one of the loads",
         ),
-        ({"beam": Heavy(**vars(Beam.reference()))}, "Heavy be a frozen dataclass that inherits"),
+        ({"blade": Heavy(**vars(Beam.reference()))}, "Heavy be a frozen dataclass that inherits"),
     ],
 )
 def test_what_is_not_known_is_refused_before_it_is_computed(beam, change, sentence):
-    given = {"beam": beam, "spin_up": MOTION, **change}
+    given = {"blade": beam, "spin_up": MOTION, **change}
     with pytest.raises(TypeError, match=sentence):
         simulate(**given, elements=2, duration=2.5, step=1e-2)
 

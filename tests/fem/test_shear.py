@@ -38,7 +38,7 @@ def test_frequencies_converge_with_the_fourth_power(blade, fitted_order):
 
 
 def with_rotary_inertia(told):
-    return replace(THICK.blade, section=replace(THICK.blade.section, rotary_inertia=told))
+    return THICK.with_section(replace(THICK.section, rotary_inertia=told))
 
 
 HOMOGENEOUS = THICK.density * THICK.second_moment

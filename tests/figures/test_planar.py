@@ -9,7 +9,7 @@ from rotbeam_exu import comparison, dataset_of, figures
 
 
 def test_growth_over_the_amplitude(beam):
-    blade = beam.with_shape(Rectangle(ratio=3.0))
+    blade = beam.with_hub_radius(0.0).with_shape(Rectangle(ratio=3.0))
     found = periodic_orbits(blade, 2.0, [0.25, 0.3]).out_of_plane()
     axes = figures.planar_stability(dataset_of(found))
     by_label = {line.get_label(): line for line in axes.lines}

@@ -71,7 +71,7 @@ def test_a_body_has_the_volume_of_the_blade_and_the_stress_in_its_corners(beam, 
 
 def test_a_coned_blade_turns_about_its_axis_and_rests_where_no_angle_is_told(tmp_path):
     blade = Beam.reference().with_section_out_of_plane(0.25, 0.2).with_twist(0.5)
-    blade = blade.with_precone(0.1).blade.with_hub_radius(0.5)
+    blade = blade.with_precone(0.1).with_hub_radius(0.5)
     loads = steady_state(blade, 2.0).section_loads(STATIONS)
     found = read(save_vtk(shape_of(loads), tmp_path / "blade.pvd"), 0)
     np.testing.assert_allclose(found.points[0], [0.5, 0.0, 0.0], atol=1e-15)

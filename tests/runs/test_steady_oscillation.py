@@ -9,6 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotbeam_exu import steady_oscillation
+from rotbeam_exu.runs.attributes import blade_attributes
+from tests.beams import REED
 
 
 def signal(frequency=3.7, second=0.0, duration=15.0, ramp_time=3.0, step=5e-3):
@@ -159,15 +161,12 @@ def test_uneven_times_are_measured_as_they_are():
     assert found.amplitude == pytest.approx(steady_oscillation(even).amplitude, rel=1e-9)
 
 
-REED = {
-    "blade_length": 0.05, "beam_area": 2.5e-6, "beam_second_moment": 5.208e-14,
-    "beam_youngs_modulus": 2.1e11, "beam_density": 7850.0, "omega": 1000.0, "ramp_time": 0.006,
-}  # fmt: skip
+ATTRS = {**blade_attributes(REED), "omega": 1000.0, "ramp_time": 0.006}
 
 
 def reed(step):
     time = np.arange(0.0, 0.2 + 0.5 * step, step)
-    return xr.Dataset({"q": ("time", 0.005 * np.cos(1133.343 * time))}, {"time": time}, REED)
+    return xr.Dataset({"q": ("time", 0.005 * np.cos(1133.343 * time))}, {"time": time}, ATTRS)
 
 
 def test_an_alias_is_refused():

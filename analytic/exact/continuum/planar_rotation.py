@@ -67,18 +67,17 @@ def require_shear(blade: Blade, theory: Theory) -> None:
 def _unit(blade: Blade, theory: Theory) -> UnitBlade:
     """Return the blade without dimensions, with the rotary inertia of its slices."""
     require_shear(blade, theory)
-    blade = blade.unit
-    told = blade.section.rotary_inertia is not None
-    if told or not theory.rotary_inertia:
-        return blade
+    unit, given = blade.unit, blade.section.rotary_inertia is not None
+    if given or not theory.rotary_inertia:
+        return unit
     x = np.linspace(0.0, 1.0, 257)
-    if not np.allclose(evaluated(blade.mass, x), evaluated(blade.axial, x), rtol=1e-9):
+    if not np.allclose(evaluated(unit.mass, x), evaluated(unit.axial, x), rtol=1e-9):
         raise ValueError(
             "mass and axial stiffness of the blade do not vary alike, so that its sections "
             "have no one ρ/E to take their rotary inertia from: give "
             "Section(rotary_inertia=...) in kg m"
         )
-    return replace(blade, rotary=in_units(blade.bending, 1.0, 1.0 / blade.slenderness))
+    return replace(unit, rotary=in_units(unit.bending, 1.0, 1.0 / blade.slenderness))
 
 
 def on_more(q: FloatArray, own: tuple[int, ...], others: tuple[int, ...]) -> FloatArray:

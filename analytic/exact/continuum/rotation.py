@@ -62,7 +62,6 @@ def lives_in_space(blade: Blade, loads: Sequence[Load] = ()) -> bool:
     A setting angle mixes them where the stiffness out of the plane and in torsion is known.
     """
     require_blade(blade)
-    blade = blade
     turned = blade.setting_angle != 0.0 and blade.section.knows_space
     return turned or not blade.is_planar or any(load.leaves_plane for load in loads)
 

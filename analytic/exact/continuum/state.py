@@ -73,7 +73,7 @@ class SectionLoads:
 
     Attributes
     ----------
-    blade : Beam or Blade
+    blade : Blade
     stations : ndarray (stations,)
         From the clamp [m].
     place : ndarray (samples, stations, 3)

@@ -233,7 +233,6 @@ def trapeze_of(soft: FloatArray) -> FloatArray:
 
 def space_unit(blade: Blade) -> SpaceUnit:
     """Return a blade in space without dimensions; its section out of the plane is known."""
-    blade = blade
     unit, out, length = blade.unit, blade.section.out_of_plane, blade.length
     common: dict[str, Any] = {field.name: getattr(unit, field.name) for field in fields(unit)}
     common |= {

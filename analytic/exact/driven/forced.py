@@ -128,7 +128,7 @@ def forced_response(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
         With damping: see `Blade.with_damping`.
     omega : float or sequence of float
         Rotation speed ω [rad/s]; under gravity speeds, ascending, in place of the frequencies.

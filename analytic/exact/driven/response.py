@@ -142,7 +142,7 @@ def spin_up_response(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     spin_up : SpinUp, FourierRamp or SpeedTable
         Before it the beam is straight, and stretched as the speed at t = 0 has it.
     times : array_like

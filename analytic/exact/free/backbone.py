@@ -138,7 +138,7 @@ def backbone(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
         Without damping.
     omega : float
         Rotation speed ω [rad/s].

@@ -67,7 +67,7 @@ class OrbitSet:
     def common_fields(blade: Blade, theory: Theory, orbits: Sequence[Orbit[Any]]) -> dict[str, Any]:
         """Return the attributes that all sets of orbits of a blade have."""
         return {
-            "beam": blade,
+            "blade": blade,
             "theory": theory,
             "frequency": blade.frequency_scale * np.array([orbit.frequency for orbit in orbits]),
             "amplitude": np.array([orbit.amplitude for orbit in orbits]),

@@ -34,7 +34,6 @@ class PlanarOrbits(ModePath):
     damping ratio `damping` of its modes.
     """
 
-    blade: Blade
     damping: float
 
     @property
@@ -74,8 +73,8 @@ def planar_orbits(
         raise ValueError(f"planar orbits grow out of modes of lag, and mode is {name!r}: 'lag 1'")
     model = resolved_model(free, int(name.split()[1]), theory, _FUNCTIONS)
     return PlanarOrbits(
-        blade=free, omega=omega, mode=name, theory=theory, model=model,
-        blade=blade, damping=not_negative("damping", damping),
+        blade=blade, omega=omega, mode=name, theory=theory, model=model,
+        damping=not_negative("damping", damping),
     )  # fmt: skip
 
 

@@ -59,7 +59,7 @@ class Campbell:
 
     Attributes
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omegas : ndarray (speeds,)
         Rotation speeds [rad/s].
     frequencies : ndarray (speeds, count)
@@ -167,7 +167,7 @@ def campbell(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omegas : array_like
         Rotation speeds [rad/s], ascending.
     count : int

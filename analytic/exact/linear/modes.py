@@ -51,7 +51,7 @@ def linear_modes(
 
     Parameters
     ----------
-    blade : Beam or Blade
+    blade : Blade
     omega : float
         Rotation speed ω [rad/s].
     count : int
@@ -136,7 +136,6 @@ def _known_in_space(blade: Blade, only: Family | None) -> Blade:
 
     Flap of a planar blade does without it; its torsion is refused.
     """
-    blade = blade
     out = blade.section.out_of_plane
     rigid = out is not None and (out.torsion_ratio is None or math.isinf(out.torsion_ratio))
     if only == "torsion" and rigid:

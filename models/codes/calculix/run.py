@@ -23,7 +23,7 @@ FACE = [(j, k) for j in (-1, 0, 1) for k in (-1, 0, 1) if j or k]
 
 def mesh(case: Case, n: int):
     """Return nodes, elements and material as text, the nodes by place, and the height."""
-    beam = case.blade.uniform
+    beam = case.blade
     height = np.sqrt(12.0 * beam.bending_stiffness / beam.axial_stiffness)
     E, rho = beam.axial_stiffness / height**2, beam.mass_per_length / height**2
     places = [(i, j, k) for i in range(2 * n + 1) for j, k in FACE if i % 2 == 0 or j * k]

@@ -18,7 +18,7 @@ HUB = 1e8  # inertia of the hub, which the beam cannot turn [kg m²]
 
 def build(case: Case, n: int, h: float):
     """Return model and data; the first joint is the hub's, which drives the clamp."""
-    beam = case.blade.uniform
+    beam = case.blade
     l = beam.length / n
     m = beam.mass_per_length * l
     links = ""

@@ -17,7 +17,7 @@ from rotbeam_exu.verification.submission import Declaration
 
 def build(case: Case, n: int, clamped: int) -> float:
     """Make the model, whose clamp turns if `clamped` is 0, and return the mass of a node."""
-    beam = case.blade.uniform
+    beam = case.blade
     link = beam.length / n
     ops.wipe()
     ops.model("basic", "-ndm", 3, "-ndf", 6)

@@ -48,7 +48,7 @@ class World(elastica.BaseSystemCollection, elastica.Constraints):
 
 def history(case: Case, n: int, h: float):
     """Spin up a solid round rod with the beam's EA, EI and mass."""
-    beam = case.blade.uniform
+    beam = case.blade
     link = beam.length / (n - 0.5)
     radius = 2.0 * np.sqrt(beam.bending_stiffness / beam.axial_stiffness)
     area = np.pi * radius**2

@@ -8,10 +8,10 @@ from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
-from analytic.blade_checks import require_out_of_plane
 
 from analytic import Blade
 from analytic.arrays import FloatArray
+from analytic.blade_checks import require_out_of_plane
 from analytic.quadrature import gauss_points
 
 from ..lazily import exudyn, items

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from analytic.blade_checks import require_blade, require_planar
 from numpy.typing import NDArray
 
 from analytic import Blade
 from analytic.arrays import FloatArray
+from analytic.blade_checks import require_blade, require_planar
 from analytic.description import Described
 from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.input_checks import finite_number, positive

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 import numpy as np
-from analytic.blade_checks import require_planar
 
 from analytic import Beam
 from analytic.arrays import FloatArray
+from analytic.blade_checks import require_planar
 from analytic.input_checks import whole_number
 from analytic.lazily import linalg, optimize
 

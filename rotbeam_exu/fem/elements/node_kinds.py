@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
-from analytic.blade_checks import require_blade
 
 from analytic import Blade
 from analytic.arrays import FloatArray
+from analytic.blade_checks import require_blade
 from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.exact.continuum.state import BeamState
 from analytic.lazily import spatial

@@ -173,11 +173,11 @@ def test_small_orbits_leave_each_mode_its_damping_ratio():
     ("blade", "digits"),
     # What 18 functions and the round-off of K leave; at a mass inside e jumps, and w' with it.
     [
-        (BEAM.blade, 2e-8),
+        (BEAM, 2e-8),
         (BEAM.with_hub_radius(4.0).with_tip_mass(0.5), 2e-8),
         (BEAM.with_taper(0.3, 0.3).with_point_mass(0.2, 5.0), 2e-6),
         (
-            unit_beam(5e-4).blade,
+            unit_beam(5e-4),
             2e-8,
         ),
     ],
