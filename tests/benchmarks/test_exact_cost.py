@@ -92,23 +92,17 @@ def test_a_spin_up_in_space_takes_forty_times_that_in_the_plane():
     assert space < 40.0 * plane, f"{space:.3f} s against {plane:.4f} s"
 
 
-def test_a_tolerance_of_1e_3_costs_less_than_one_of_1e_6_in_space():
-    motion, times = SpinUp(omega=4.0, ramp_time=12.0), np.linspace(0.0, 20.0, 21)
-    blade = FLAT.with_twist(0.5236)
-    coarse, fine = (
-        cpu_seconds(lambda t=tolerance: spin_up_response(blade, motion, times, tolerance=t))
-        for tolerance in (1e-3, 1e-6)
-    )
-    assert coarse < 0.2 * fine, f"{coarse:.3f} s against {fine:.3f} s"
-
-
-@pytest.mark.parametrize(("tolerance", "most"), [(1e-4, 3.0), (1e-6, 10.0)])
-def test_a_real_blade_spins_up_in_seconds(tolerance, most):
+def test_a_real_blade_spins_up_in_seconds_and_by_digits():
     """NREL's blade for 15 s, whose 49 stations are in space."""
     blade = load_beam(Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml")
     motion, times = SpinUp(omega=1.267, ramp_time=10.0), np.linspace(0.0, 15.0, 151)
-    took = cpu_seconds(lambda: spin_up_response(blade, motion, times, tolerance=tolerance))
-    assert took < most
+    three, four, six = (
+        cpu_seconds(lambda t=tolerance: spin_up_response(blade, motion, times, tolerance=t))
+        for tolerance in (1e-3, 1e-4, 1e-6)
+    )
+    assert four < 3.0
+    assert six < 10.0
+    assert three < 0.2 * six, f"{three:.3f} s against {six:.3f} s"
 
 
 def test_a_blade_whose_tip_lags_by_most_of_its_length_spins_up_in_seconds():
