@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field
 
 from .blade import Blade
@@ -9,6 +10,7 @@ from .input_checks import positive, warn_if_giga
 from .parts import STRAIGHT, UNDAMPED, Damping, Line, PointMass
 from .section import Section
 from .section_shape import Gyration
+from .warning import RotbeamWarning
 
 BETA_1 = 1.8751040687119611
 """First root of cos β cosh β = -1: the first mode of the cantilever, ω0 = β² √(EI/mL³)."""
@@ -69,11 +71,13 @@ class Beam(Blade):
             density=positive("density", self.density, "kg/m^3"),
         )
         warn_if_giga("youngs_modulus", self.youngs_modulus, "Pa", self.density)
-        section = Section(
-            axial_stiffness=self.youngs_modulus * self.area,
-            bending_stiffness=self.youngs_modulus * self.second_moment,
-            mass_per_length=self.density * self.area,
-        )
+        with warnings.catch_warnings():  # the section would warn of its EA again
+            warnings.simplefilter("ignore", RotbeamWarning)
+            section = Section(
+                axial_stiffness=self.youngs_modulus * self.area,
+                bending_stiffness=self.youngs_modulus * self.second_moment,
+                mass_per_length=self.density * self.area,
+            )
         self._keep(section=section)
         super().__post_init__()
 

@@ -34,18 +34,14 @@ app = cyclopts.App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,
 )
-_COMMANDS = (
-    "run", "reference", "ramp", "backbone", "campbell", "respond", "stability", "sweep",
-    "converge", "compare", "figure", "table", "explore", "animate", "verify", "kit", "judge",
-    "schema", "doctor", "blade",
-)  # fmt: skip
-"""In the order of the work; each is imported when it is called."""
-
-_ROOMS = {
-    "reference": "run", "converge": "sweep", "compare": "paper", "figure": "paper",
-    "table": "paper", "kit": "judge", "verify": "judge", "schema": "doctor",
+_COMMANDS = {
+    "run": "run", "reference": "run", "ramp": "ramp", "backbone": "backbone",
+    "campbell": "campbell", "respond": "respond", "stability": "stability", "sweep": "sweep",
+    "converge": "sweep", "compare": "paper", "figure": "paper", "table": "paper",
+    "explore": "explore", "animate": "animate", "verify": "judge", "kit": "judge",
+    "judge": "judge", "schema": "doctor", "doctor": "doctor", "blade": "blade",
 }  # fmt: skip
-"""Modules of the commands that have none of their own name."""
+"""Modules of the commands, in the order of the work; each is imported when it is called."""
 
 
 def documented(command: str) -> tuple[str, tuple[str, ...]]:
@@ -54,8 +50,7 @@ def documented(command: str) -> tuple[str, tuple[str, ...]]:
     The examples are the lines of the numpydoc section that begin with "$": command lines, which
     `tests/cli/test_examples.py` runs.
     """
-    room = Path(__file__).with_name(f"{_ROOMS.get(command, command)}.py")
-    source = room.read_text(encoding="utf-8")
+    source = Path(__file__).with_name(f"{_COMMANDS[command]}.py").read_text(encoding="utf-8")
     # Not by a parser: all commands' are read at each call of any, and --help is to be quick.
     (text,) = re.findall(rf'^def {command}\(.*?^    """(.*?)"""$', source, re.DOTALL | re.MULTILINE)
     said, _, rest = inspect.cleandoc(text).partition("Examples\n---")
@@ -63,10 +58,10 @@ def documented(command: str) -> tuple[str, tuple[str, ...]]:
     return said.partition("Parameters\n---")[0].strip(), tuple(lines)
 
 
-for _order, _command in enumerate(_COMMANDS):
+for _order, (_command, _module) in enumerate(_COMMANDS.items()):
     _help, _examples = documented(_command)
     app.command(
-        f"{__name__}.{_ROOMS.get(_command, _command)}:{_command}",
+        f"{__name__}.{_module}:{_command}",
         name=_command, help=_help, sort_key=_order,
         # Markdown, each in a line of its own: two spaces break one.
         help_epilogue="Examples:\n\n" + "  \n".join(_examples),

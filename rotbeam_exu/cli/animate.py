@@ -16,23 +16,21 @@ from ..files.results import load
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
-from .motion import chosen_times, configured, motion_of, slower_than_paper
-from .options import Config, Number, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
+from .motion import chosen_times, slower_than_paper
+from .options import Number, Whole
 from .output import bar, print_text
+from .request import Request, uses
 
 
+@uses("speed", "ramp_time", "duration", "theory")
 def animate(
+    request: Request,
     *,
-    omega: SteadySpeed = None,
-    ramp_time: RampTime = None,
-    duration: Number | None = None,
     rate: Whole = 20,
     beside: Literal["linear"] | None = None,
     run: Path | None = None,
     height: Number | None = None,
     width: Number | None = None,
-    theory: TheoryPairs = None,
-    config: Config = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
@@ -44,8 +42,6 @@ def animate(
 
     Parameters
     ----------
-    duration
-        End of the motion [s].
     rate
         Frames per second of the film.
     beside
@@ -73,14 +69,11 @@ def animate(
     whole_number("rate", rate)
     kept = None if run is None else load(run)
     if kept is None:
-        file = configured(config, "motion", "numerics.duration", "theory")
-        blade, law = file.blade, theory_of(file, theory)
-        spin_up = motion_of(file, omega=omega, ramp_time=ramp_time).spin_up
+        blade, spin_up = request.blade, request.motion.spin_up
         speed, ramp = spin_up.omega, spin_up.ramp_time
         usual = max(chosen_times(blade, 12.0)[0], 2.0 * ramp)
-        known = file.numerics.get("duration", usual) if duration is None else duration
-        duration = positive("duration", known, "s")
-    elif [one for one in (omega, ramp_time, duration, beside, theory, config) if one is not None]:
+        duration = positive("duration", request.values.get("duration", usual), "s")
+    elif request.options or request.config or beside:
         raise ValueError(
             "--run shows a run as it is: leave out --omega, --ramp-time, --duration, --beside, "
             "--theory and --config"
@@ -111,7 +104,7 @@ def animate(
         points = np.linspace(0.0, blade.length, 41)
         with bar("integrating"):
             exact = spin_up_response(
-                blade, spin_up, times, tolerance=1e-5, points=points, theory=law
+                blade, spin_up, times, tolerance=1e-5, points=points, theory=request.theory
             )
             data = dataset_of(exact)
             if beside:

@@ -11,12 +11,13 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import Blade
+from analytic.blade_checks import require_planar
 from analytic.warning import warn
 
 from .job import Flag
-from .motion import configured, omega_of
-from .options import Amplitudes, Config, Omega, TheoryPairs, Whole, theory_of
+from .options import Amplitudes, Whole
 from .output import Format, bar, print_columns, print_note
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.free.orbits import Orbits
@@ -26,17 +27,16 @@ Refusal = tuple[str, str]
 """A model's name, and why it has no answer."""
 
 
+@uses("omega", "theory")
 def backbone(
+    request: Request,
     *,
-    omega: Omega = None,
     amplitude: Amplitudes = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
     variant: str | None = None,
     all_variants: Flag = False,
     exact: Flag = False,
     mode: str = "lag 1",
     functions: Whole = 16,
-    theory: TheoryPairs = None,
-    config: Config = None,
     form: Annotated[Format, Parameter(name="--format")] = "table",
 ) -> None:
     """Print the frequency over the amplitude, reduced and exact.
@@ -49,8 +49,8 @@ def backbone(
     amplitude
         Amplitudes over the length, one or several.
     variant
-        CI, CE, FrI, FrE, P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours. Without one, FrM and
-        the exact backbone.
+        CI, CE, FrI, FrE, P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours. Without one, the exact
+        backbone, and of a blade in its plane FrM.
     all_variants
         Every variant, one below the other.
     exact
@@ -69,29 +69,24 @@ def backbone(
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
     $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
-    file = configured(config, "motion.omega", "theory")
-    omega, law = omega_of(file, omega), theory_of(file, theory)
+    blade, omega, theory = request.blade, request.omega, request.theory
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
-    names = told or (["FrM"] if mode == "lag 1" else [])
+    if told:
+        require_planar(
+            blade, "the reduced models are of", "the exact backbone: leave the variants out"
+        )
+    names = told or (["FrM"] if mode == "lag 1" and blade.is_planar else [])
     exact = exact or not told
-    if law != analytic.Theory() and not exact:
-        raise ValueError(f"{law} is a theory of the exact beam: add --exact")
-    refused: list[Refusal] = []
-    models = []
-    for name in names:
-        try:
-            models.append(analytic.reduced_model(file.blade, omega, name))
-        except ValueError as error:
-            refused.append((name, str(error)))
+    if theory != analytic.Theory() and not exact:
+        raise ValueError(f"{theory} is a theory of the exact beam: add --exact")
+    models, refused = _reduced(blade, omega, names)
     if told and not models:
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
     if exact:
-        orbits, failure = _exact(
-            file.blade, omega, amplitude, mode, functions=functions, theory=law
-        )
+        orbits, failure = _exact(blade, omega, amplitude, mode, functions=functions, theory=theory)
     columns = _frequencies(models, amplitude, refused)
     if orbits is not None:
         columns |= _exact_columns(orbits, amplitude, len(models))
@@ -111,6 +106,19 @@ def backbone(
         warn(f"no answer: {sentence}")
     if failure:
         raise RuntimeError(failure)
+
+
+def _reduced(
+    blade: Blade, omega: float, names: list[str]
+) -> tuple[list[ReducedModel], list[Refusal]]:
+    """Return the models of the blade, and why it has no others."""
+    models, refused = [], []
+    for name in names:
+        try:
+            models.append(analytic.reduced_model(blade, omega, name))
+        except ValueError as error:
+            refused.append((name, str(error)))
+    return models, refused
 
 
 def _grouped(refused: list[Refusal]) -> list[str]:

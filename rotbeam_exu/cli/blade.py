@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
 import numpy as np
@@ -13,9 +12,8 @@ from analytic import Blade, Theory
 from analytic.arrays import FloatArray, evaluated, in_units
 from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 
-from .motion import configured
-from .options import TheoryPairs, theory_of
 from .output import bar, formatted, print_columns, print_line, print_note
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.linear.space_modes import LinearModes
@@ -23,7 +21,8 @@ if TYPE_CHECKING:
 _COUNT = 6  # modes
 
 
-def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
+@uses("theory", "motion.omega")
+def blade(request: Request) -> None:
     """Print mass, stiffness and first frequencies of a blade.
 
     The frequencies are at rest and at the speed of the file.
@@ -31,29 +30,22 @@ def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
     Of a table of stations it also prints by how much the frequencies at rest change with the other
     interpolation between stations, which is a convention.
 
-    Parameters
-    ----------
-    config
-        TOML file with the beam or blade, and optionally a speed; without it, the paper's beam.
-
     Examples
     --------
     $ rotbeam blade
     $ rotbeam blade --config beam.toml
     """
-    file = configured(config, "motion.omega", "theory")
-    blade, omega = file.blade, file.motion.get("omega", 0.0)
-    law = theory_of(file, theory)
+    blade, theory, omega = request.blade, request.theory, request.values.get("omega", 0.0)
     with bar("modes"):
-        rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=law)
+        rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=theory)
         turning = {}
         if omega:
-            modes = analytic.linear_modes(blade, omega, _COUNT, theory=law)
+            modes = analytic.linear_modes(blade, omega, _COUNT, theory=theory)
             turning[f"at {omega:g} rad/s [Hz]"] = _named(modes, rest) / (2.0 * np.pi)
         section, others = blade.section, {}
         if isinstance(section, StationSection):
             (way,) = set(get_args(Interpolation)) - {section.interpolation}
-            others[way] = _changes(blade, section, way, law, rest)
+            others[way] = _changes(blade, section, way, theory, rest)
     place, mass = blade.unit.inertia(32)
     moment = float(place @ mass) * blade.mass_per_length * blade.length**2
     print_line("length", f"{blade.length:g} m, on a hub of {blade.hub_radius:g} m")
@@ -69,7 +61,7 @@ def blade(*, theory: TheoryPairs = None, config: Path | None = None) -> None:
             **{title: formatted(values, ".6f") for title, values in turning.items()},
             **{f'"{way}" [%]': formatted(changes, "+.4f") for way, changes in others.items()},
         },
-        title=f"Frequencies, {law}",
+        title=f"Frequencies, {theory}",
     )
     for way, changes in others.items():
         print_note(

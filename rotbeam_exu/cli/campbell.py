@@ -13,24 +13,24 @@ import analytic
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
-from .motion import chosen_speeds, configured
-from .options import Number, SectionOptions, TheoryPairs, Whole, theory_of
+from .motion import chosen_speeds
+from .options import Number, Whole
 from .output import bar, formatted, print_columns
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.linear.campbell import Campbell
 
 
+@uses("section", "theory", "motion.omega")
 def campbell(
+    request: Request,
     *,
     omega_min: Number = 0.0,
     omega_max: Number | None = None,
     points: Whole = 13,
     count: Whole = 3,
     orders: Whole = 6,
-    shape: SectionOptions = SectionOptions(),
-    theory: TheoryPairs = None,
-    config: Path | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: Number | None = None,
     force: Flag = False,
@@ -53,8 +53,6 @@ def campbell(
         Number of modes, those lowest at the first speed.
     orders
         Lines k ω up to this k.
-    config
-        TOML file with the beam; without it, the paper's beam.
     out
         Folder for netCDF, CSV and the figure; without it none is written.
     frequency_max
@@ -70,21 +68,20 @@ def campbell(
     """
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
-    file = configured(config, "motion.omega", "theory")
-    blade = shape.of(file.blade)
-    usual = 2.0 * file.motion.get("omega", chosen_speeds(blade, 6.0)[0])
+    blade = request.blade
+    usual = 2.0 * request.values.get("omega", chosen_speeds(blade, 6.0)[0])
     highest = usual if omega_max is None else omega_max
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
     with bar("modes"):
-        diagram = analytic.campbell(blade, speeds, count, orders, theory=theory_of(file, theory))
+        diagram = analytic.campbell(blade, speeds, count, orders, theory=request.theory)
     if out is None:
         _print(diagram)
         return
     from ..datasets import dataset_of
 
     Results(out=out, force=force).job(
-        f"campbell-{shape.name}", dataset_of(diagram), show=lambda *_: _print(diagram),
+        f"campbell-{request.section}", dataset_of(diagram), show=lambda *_: _print(diagram),
         draw=lambda figures, _: figures.campbell(diagram, highest=frequency_max),
     )  # fmt: skip
 

@@ -8,33 +8,35 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from analytic import Blade
+from analytic.blade_checks import require_planar
 
 from .. import paper
 from ..fem.lazily import require_exudyn
 from .job import Flag, require_writable, write_text
-from .motion import chosen_speeds, chosen_times, configured, grid_motion
+from .motion import chosen_speeds, chosen_times, grid_motion
 from .options import Jobs, Workers
 from .output import print_text
+from .request import Request, uses
 
 
+@uses()
 def explore(
+    request: Request,
     *,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
-    config: Path | None = None,
     cache: Path | None = None,
     jobs: Jobs = None,
     force: Flag = False,
 ) -> None:
     """Write the Explorer: all models and the exact beam on a page.
 
-    The page needs no network. Sliders set speed, amplitude and ramp time.
+    The page needs no network. Sliders set speed, amplitude and ramp time; those of a beam of one's
+    own follow its ω_0.
 
     Parameters
     ----------
     out
         HTML file to write; by default explorer.html, or explorer-NAME.html for NAME.toml.
-    config
-        TOML file with the beam or blade, whose sliders follow its ω_0; without it, the paper's.
     cache
         Folder that keeps the finite element runs for the next time.
     jobs
@@ -51,10 +53,11 @@ def explore(
 
     require_exudyn()
     if out is None:
-        out = Path("explorer.html" if config is None else f"explorer-{config.stem}.html")
+        out = Path(f"explorer-{request.config.stem}.html" if request.config else "explorer.html")
     require_writable(out, force=force, ending=".html")
-    blade = configured(config).blade
-    options = {} if config is None else _scaled(blade)
+    blade = request.blade
+    require_planar(blade, "the Explorer is of", "rotbeam animate, which films it in space")
+    options = _scaled(blade) if request.config else {}
     with Workers(cache=cache, jobs=jobs).counted("exact orbits and spin-ups") as how:
         data = explorer_data(blade, **how, **options)
     write_text(explorer_page(data), out)

@@ -10,6 +10,8 @@ from json import dumps
 from pathlib import Path
 from typing import Any
 
+from analytic.blade_checks import require_planar
+
 from ..report.document import Record, document
 from ..report.page import report_page
 from ..verification.cases import CASES, VERSION
@@ -23,9 +25,8 @@ from ..verification.submission import Run, Submission
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable, write_text
-from .motion import configured, element_of, motion_of
-from .options import Config
 from .output import bar, counter, formatted, print_columns, print_note, print_text, print_written
+from .request import Request, element_of, uses
 
 _SHORT = {
     "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
@@ -149,7 +150,8 @@ def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
         print_note(f"{', '.join(one.case for one in alike)}: a usual mistake? {alike[0]}")
 
 
-def verify(*, element: list[str] | None = None, config: Config = None) -> None:
+@uses("motion", "numerics.duration", "numerics.step")
+def verify(request: Request, *, element: list[str] | None = None) -> None:
     """Judge elements by their limits.
 
     Frequencies, history, amplitude and nonlinear shift.
@@ -172,19 +174,20 @@ def verify(*, element: list[str] | None = None, config: Config = None) -> None:
     from ..verification.verify import verify as verification_of
 
     own = [formulation_entry(element_of(name)) for name in element or ()]
-    file = configured(config, "motion", "numerics.duration", "numerics.step")
-    motion = motion_of(file, duration=file.numerics.get("duration"), step=file.numerics.get("step"))
-    entries = own or entries_at_hand()
-    if config:
+    motion = request.motion
+    entries, mine = own or entries_at_hand(), dict[str, Any]()
+    if request.config:
+        remedy = "rotbeam reference, which is exact in space"
+        require_planar(request.blade, "verify has references of", remedy)
         entries = [replace(entry, step=motion.step) for entry in entries]
-    mine: dict[str, Any] = {"blade": file.blade, "spin_up": motion.spin_up} if config else {}
+        mine = {"blade": request.blade, "spin_up": motion.spin_up}
     found = []
     with counter("verifying") as progress:
         for entry in entries:
             found.append(verification_of(entry, duration=motion.duration, **mine))
             progress(len(found), len(entries))
     of_own = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
-    print_judgements(found, of_own if config else "the paper's beam")
+    print_judgements(found, of_own if request.config else "the paper's beam")
 
 
 def print_judgements(found: Sequence[Judgement], about: str) -> None:

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import MISSING, dataclass, fields, make_dataclass, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter, Token
 
-from analytic import Blade, Damping, Theory
+from analytic import Blade, Damping
 from analytic.description import kinds_of
 from analytic.loads import Load
 from analytic.section_shapes import SectionShape
 
-from ..files.beam_file import RunFile
-from ..files.beam_tables import THEORY, require_keys
+from ..runs import Frame
 from .job import Flag, telling_what_is_kept
 from .output import counter
 
@@ -68,51 +66,7 @@ Amplitudes = Annotated[
     list[Number],
     Parameter(consume_multiple=True, show_default=lambda given: " ".join(f"{a:g}" for a in given)),
 ]
-Config = Annotated[
-    Path | None,
-    Parameter(
-        help="TOML file with [beam] or [blade], and optionally [motion], [numerics], [theory] and "
-        "[[loads]]; options given here replace its values. Without a file: the paper's beam."
-    ),
-]
-Omega = Annotated[
-    Number | None,
-    Parameter(help="Rotation speed [rad/s]; required unless [motion] of the file has it."),
-]
-TheoryPairs = Annotated[
-    list[str] | None,
-    Parameter(
-        name="--theory", consume_multiple=True, metavar="KEY=VALUE",
-        help="Theory of the exact beam, pairs of extension, shear, engesser, rotary_inertia and "
-        "trapeze, as trapeze=false shear=0.3; over [theory] of the file.",
-    ),
-]  # fmt: skip
-SteadySpeed = Annotated[
-    Number | None,
-    Parameter(
-        help="Steady angular velocity [rad/s]; by default the benchmark's, 6 for its beam and "
-        "ω/ω_0 = 2.06 for any other."
-    ),
-]
-RampTime = Annotated[
-    Number | None,
-    Parameter(help="Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
-]
 NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
-
-
-def theory_of(file: RunFile, given: Sequence[str] | None) -> Theory:
-    """Return the theory of --theory, whose pairs are lines of TOML, over [theory] of the file."""
-    pairs = given or ()
-    try:
-        told = tomllib.loads("\n".join(pairs))
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(
-            f"--theory takes key=value as in a file, as trapeze=false shear=0.3, got "
-            f"{' '.join(pairs)!r}: {error}"
-        ) from error
-    require_keys(told, THEORY, "--theory")
-    return Theory(**{**file.theory, **told})
 
 
 def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
@@ -150,48 +104,6 @@ class Workers:
             yield {"jobs": self.jobs, "cache": self.cache, "progress": progress}
 
 
-def _shapes() -> dict[str, Any]:
-    """Return the kinds of section that are known by now, by the option's value."""
-    return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
-
-
-_Section: Any = Literal[tuple(_shapes())] | None
-
-
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class SectionOptions:
-    """The section out of the plane.
-
-    Parameters
-    ----------
-    section
-        The section out of the plane; by default that of the file.
-    ratio
-        Height in the plane over width, of a rectangle or an ellipse whose material and size follow
-        the beam's EA, EI and mass; by default from the beam's A and I.
-    """
-
-    section: _Section = None
-    ratio: Number | None = None
-
-    @property
-    def name(self) -> str:
-        """The shape as part of a file's name."""
-        shape = self.section or "given"
-        return shape if self.ratio is None else f"{shape}-{self.ratio:g}"
-
-    def of(self, blade: Blade) -> Blade:
-        """Return the beam with the section asked for, by default its own."""
-        kind = _shapes().get(self.section)
-        if self.ratio is None:
-            return blade if kind is None else blade.with_shape(kind())
-        if kind is None or "ratio" not in (field.name for field in fields(kind)):
-            raise ValueError("--ratio is height over width: give it with a --section that has both")
-        # Of another material than a beam's: what is set on a hub is a Blade, whose area is free.
-        return blade.with_hub_radius(blade.hub_radius).with_shape(kind(ratio=self.ratio))
-
-
 def option_of(kind: type[Load]) -> str:
     """Return the name of a load without its article, as an option."""
     return kind.called.split(maxsplit=1)[-1].replace(" ", "-")
@@ -202,86 +114,118 @@ def _has_default(kind: Any) -> bool:
     return fields(kind)[0].default is not MISSING
 
 
-_KINDS = {
+KINDS: dict[str, Any] = {
     option_of(kind).replace("-", "_"): kind
     for kind in sorted(kinds_of(Load).values(), key=_has_default)
     if kind.varied
 }
-"""Loads that have a response, by their fields; loads that need no size come last."""
+"""Loads that have a response, by their options; loads that need no size come last."""
 
 
-class _Given:
-    """Options, the loads' sizes; without one, a load has its default size."""
-
-    def one(self) -> Load:
-        """Return the load, where one is given."""
-        given = self.all(None)
-        if len(given) != 1:
-            *others, last = (f"--{option_of(kind)}" for kind in _KINDS.values())
-            got = " and ".join(f"--{option_of(type(one))}" for one in given) or "none"
-            raise ValueError(f"give one load, {', '.join(others)} or {last}, got {got}")
-        return given[0]
-
-    def all(self, frequency: float | None) -> list[Load]:
-        """Return the loads, harmonic ones at a frequency [rad/s]."""
-        loads = []
-        for name, size in vars(self).items():
-            if size is None or size is False:
-                continue
-            kind: Any = _KINDS[name]
-            load: Any = kind() if size is True else kind(**{fields(kind)[0].name: size})
-            if load.size == 0.0:
-                raise ValueError(f"--{option_of(kind)} 0 is no load: give its amplitude")
-            harmonic = load.varied == "frequency" and frequency is not None
-            loads.append(replace(load, frequency=frequency) if harmonic else load)
-        return loads
+def _shapes() -> dict[str, Any]:
+    """Return the kinds of section that are known by now, by the option's value."""
+    return {name.lower(): kind for name, kind in kinds_of(SectionShape).items()}
 
 
-def _field(name: str, kind: Any) -> tuple[str, Any, bool | None]:
+def _option(kind: Any, text: str, **more: Any) -> Any:
+    """Return the type of an option that may be left out, and its help."""
+    return Annotated[kind | None, Parameter(help=text, **more)]
+
+
+def _load(kind: Any) -> Any:
     """Return the option of a kind of load, whose size may be left out if it has a default."""
     about, size = (kind.__doc__ or "").partition("\n")[0].removesuffix("."), fields(kind)[0]
     about += f"; {kind.symbol} [{kind.unit}]"
     if not _has_default(kind):
-        return name, Annotated[Number | None, Parameter(help=f"{about}.")], None
-    option = Parameter(
-        help=f"{about}, {size.default:g} unless given.",
-        negative=(), show_default=False, metavar="[FLOAT]",
-    )  # fmt: skip
-    return name, Annotated[bool | float, option], False
+        return _option(Number, f"{about}.")
+    text = f"{about}, {size.default:g} unless given."
+    return _option(bool | float, text, negative=(), show_default=False, metavar="[FLOAT]")
 
 
-# An option for each kind of load that is known.
-Loads: Any = Parameter(name="*")(
-    make_dataclass(
-        "Loads", [_field(*one) for one in _KINDS.items()],
-        bases=(_Given,), namespace={"__module__": __name__}, frozen=True, kw_only=True,
-    )
-)  # fmt: skip
+OPTIONS = {
+    "omega": _option(
+        Number, "Rotation speed [rad/s]; required unless [motion] of the file has it."
+    ),
+    "speed": _option(
+        Number,
+        "Steady angular velocity [rad/s]; by default the benchmark's, 6 for its beam and "
+        "ω/ω_0 = 2.06 for any other.",
+        name="--omega",
+    ),
+    "ramp_time": _option(Number, "Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
+    "element": _option(
+        str,
+        "Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in space "
+        "space_cable, space_exact; or one's own, as module:Class.",
+    ),
+    "elements": _option(Whole, "Number of elements, 16 unless given."),
+    "step": _option(Number, "Step size of the integrator [s]."),
+    "duration": _option(Number, "End of the motion [s]."),
+    "frame": _option(Frame, "Coordinates of the model, inertial unless given."),
+    "section": _option(
+        Literal[tuple(_shapes())], "The section out of the plane; by default that of the file."
+    ),
+    "ratio": _option(
+        Number,
+        "Height in the plane over width, of a rectangle or an ellipse whose material and size "
+        "follow the beam's EA, EI and mass; by default from the beam's A and I.",
+    ),
+    **{name: _load(kind) for name, kind in KINDS.items()},
+    "load_frequency": _option(Number, "Frequency of the loads given as options [rad/s]."),
+    "damping_ratio": _option(
+        Number, "Damping ratio of mode 1 at rest, by damping of the bending."
+    ),
+    "external_damping": _option(
+        Number,
+        "Force per length against the velocity in the turning frame [kg/(m s)]; point masses have "
+        "none.",
+    ),
+    "theory": _option(
+        list[str],
+        "Theory of the exact beam, pairs of extension, shear, engesser, rotary_inertia and "
+        "trapeze, as trapeze=false shear=0.3; over [theory] of the file.",
+        consume_multiple=True, metavar="KEY=VALUE",
+    ),
+}  # fmt: skip
+"""Options over a file or over defaults, in the order of --help."""
 
 
-@Parameter(name="*")
-@dataclass(frozen=True, kw_only=True)
-class Dampings:
-    """Damping of the blade, in place of the damping in its file.
+def blade_of(blade: Blade, options: Mapping[str, Any]) -> Blade:
+    """Return the blade of a file with section and damping of the options."""
+    shape, ratio = _shapes().get(options.get("section", "")), options.get("ratio")
+    if ratio is not None:
+        if shape is None or "ratio" not in (field.name for field in fields(shape)):
+            raise ValueError("--ratio is height over width: give it with a --section that has both")
+        # Of another material than a beam's: what is set on a hub is a Blade, whose area is free.
+        blade = blade.with_hub_radius(blade.hub_radius).with_shape(shape(ratio=ratio))
+    elif shape is not None:
+        blade = blade.with_shape(shape())
+    ratio, external = options.get("damping_ratio"), options.get("external_damping")
+    if ratio is not None and external is not None:
+        raise ValueError("give --damping-ratio or --external-damping, not both")
+    if ratio is not None:
+        return blade.with_damping(Damping.from_ratio(blade, 1, ratio))
+    return blade if external is None else blade.with_damping(Damping(external=external))
 
-    Parameters
-    ----------
-    damping_ratio
-        Damping ratio of mode 1 at rest, by damping of the bending.
-    external_damping
-        Force per length against the velocity in the turning frame [kg/(m s)]; point masses have
-        none.
-    """
 
-    damping_ratio: Number | None = None
-    external_damping: Number | None = None
+def loads_of(options: Mapping[str, Any]) -> list[Load]:
+    """Return the loads of the options; one without a size has its default size."""
+    loads: list[Load] = []
+    for name in filter(options.__contains__, KINDS):
+        kind, size = KINDS[name], options[name]
+        load = kind() if size is True else kind(**{fields(kind)[0].name: size})
+        if load.size == 0.0:
+            raise ValueError(f"--{option_of(kind)} 0 is no load: give its amplitude")
+        if load.varied == "frequency" and "load_frequency" in options:
+            load = replace(load, frequency=options["load_frequency"])
+        loads.append(load)
+    return loads
 
-    def on(self, blade: Blade) -> Blade:
-        """Return the blade with this damping."""
-        if self.damping_ratio is not None and self.external_damping is not None:
-            raise ValueError("give --damping-ratio or --external-damping, not both")
-        if self.damping_ratio is not None:
-            return blade.with_damping(Damping.from_ratio(blade, 1, self.damping_ratio))
-        if self.external_damping is not None:
-            return blade.with_damping(Damping(external=self.external_damping))
-        return blade
+
+def one_of(loads: Sequence[Load]) -> Load:
+    """Return the load, where one is given."""
+    if len(loads) != 1:
+        *others, last = (f"--{option_of(kind)}" for kind in KINDS.values())
+        got = " and ".join(f"--{option_of(type(one))}" for one in loads) or "none"
+        raise ValueError(f"give one load, {', '.join(others)} or {last}, got {got}")
+    return loads[0]

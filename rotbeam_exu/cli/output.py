@@ -74,25 +74,20 @@ def print_columns(
     table, texts = Table(), list(map(_cells, columns.values()))
     for name, cells in zip(columns, texts, strict=True):
         numbers = all(map(_is_number, cells))
-        table.add_column(name, justify="right" if numbers else "left", overflow="fold")
+        # Without it rich breaks numbers where it shrinks columns.
+        longest = max(map(len, " ".join([name, *cells]).split()), default=0)
+        table.add_column(name, justify="right" if numbers else "left", min_width=longest)
     for row in zip(*texts, strict=True):
         table.add_row(*row)
     console = new_console()
     if title:
         console.print(Text(title, style="italic"), soft_wrap=False)
-    if console.measure(table, options=console.options.update_width(10_000)).maximum > console.width:
-        # Rich does not know how long words are where it shrinks columns, and breaks numbers.
-        least = 1 + 3 * len(columns)
-        for name, column, cells in zip(columns, table.columns, texts, strict=True):
-            longest = max(map(len, " ".join([name, *cells]).split()))
-            least += longest
-            if column.justify == "right":
-                column.width = longest
-            else:
-                column.min_width = longest
-        if least > console.width:
-            table.padding = (0, 0)
-            console.width = max(console.width, least - 2 * len(columns))
+    for padding in ((0, 1), (0, 0)):
+        table.padding = padding
+        least = console.measure(table, options=console.options.update_width(10_000)).minimum
+        if least <= console.width:
+            break
+    console.width = max(console.width, least)
     console.print(table, soft_wrap=False)
 
 

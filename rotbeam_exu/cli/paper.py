@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import analytic
 
@@ -13,9 +12,10 @@ from ..files.results import writable_folder
 from ..lazily import xr
 from ..runs.attributes import blade_attributes
 from .job import Results, refuse_to_replace
-from .motion import ChosenMotion, chosen_speeds, chosen_times, configured, grid_motion, motion_of
+from .motion import ChosenMotion, chosen_speeds, chosen_times, grid_motion
 from .options import Number, Workers, numbered
 from .output import formatted, print_columns, print_note
+from .request import Request, uses
 
 _SWEPT = (5, 14)  # figures whose data come from sweeps
 
@@ -90,23 +90,23 @@ def table(number: str, /) -> None:
             print_note(f"{mark}: {note}")
 
 
+@uses("motion")
 def compare(
+    request: Request,
     *,
     amplitude: Number = 0.1,
-    config: Path | None = None,
     workers: Workers = Workers(),
     results: Results = Results(),
 ) -> None:
     """Print all models' errors, and write Figures 14 and 15's data.
 
-    Speeds, ramps and step of another uniform beam follow its ω_0.
+    Speeds, ramps and step of another uniform beam follow its ω_0; [motion] of its file is that of
+    Figure 15.
 
     Parameters
     ----------
     amplitude
         Amplitude over the length at which the models' budget is printed.
-    config
-        TOML file with the beam; without it, the paper's beam. Its [motion] is that of Figure 15.
 
     Examples
     --------
@@ -116,17 +116,16 @@ def compare(
     from .. import comparison
 
     require_exudyn()
-    file = configured(config, "motion")
-    blade = file.blade
+    blade = request.blade
     if not isinstance(blade, analytic.Beam):
         raise ValueError(
             "the paper's models, which compare needs, are for the uniform beam of [beam] only: for "
-            "a [blade] take rotbeam backbone --variant FrM --exact"
+            "a [blade] take rotbeam backbone"
         )
-    mine = {} if config is None else blade_attributes(blade)
+    mine = blade_attributes(blade) if request.config else {}
     omegas = chosen_speeds(blade, *paper.SPEEDS)
     ramp_times = chosen_times(blade, *paper.RAMP_TIMES, digits=4)
-    motion, main = _even(grid_motion(blade, omegas, ramp_times)), motion_of(file)
+    motion, main = _even(grid_motion(blade, omegas, ramp_times)), request.motion
     models = comparison.model_budget(blade, omegas=omegas, amplitudes=(amplitude,))
     target = results.out / "budget_models.nc"
     refuse_to_replace(models.assign_attrs(mine), target, force=results.force)

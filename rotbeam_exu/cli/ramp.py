@@ -11,22 +11,20 @@ from analytic.input_checks import positive, whole_number
 
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
-from ..runs.attributes import blade_attributes
 from .job import Results
-from .motion import Discretization, chosen_times, configured, motion_of, refuse_rest
-from .options import Config, Number, SteadySpeed, Whole
+from .motion import chosen_times
+from .options import Number, Whole
 from .output import counter, formatted, print_columns, print_note
+from .request import Request, uses
 
 
+@uses("speed", "mesh")
 def ramp(
+    request: Request,
     *,
-    omega: SteadySpeed = None,
     longest: Number | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
-    element: str | None = None,
-    elements: Whole | None = None,
-    config: Config = None,
     results: Results = Results(),
 ) -> None:
     """Print the residual vibration over the ramp time, and minima.
@@ -41,11 +39,6 @@ def ramp(
         Ramp times of exact transients, evenly spaced.
     finite_element_points
         Ramp times of runs in Exudyn, evenly spaced; 0 for none.
-    element
-        Beam formulation: cable (unless given), exact, ancf3, linear, substructures; or one's own,
-        as module:Class.
-    elements
-        Number of elements, 16 unless given.
 
     Examples
     --------
@@ -53,22 +46,16 @@ def ramp(
     """
     from .. import comparison
 
-    file = configured(config, "motion.omega", "numerics.element", "numerics.elements")
-    blade = file.blade
+    blade = request.blade
     require_planar(blade, "ramp is for", "rotbeam reference, which has one ramp in space")
-    motion = motion_of(file, omega=omega)
-    omega = motion.spin_up.omega
-    case = (
-        Discretization(element=element, elements=elements).over(file.numerics).case(blade, motion)
-    )
-    refuse_rest(omega)
+    case = request.case()
+    omega = case.omega
     longest = chosen_times(blade, 10.0)[0] if longest is None else positive("longest", longest)
     whole_number("finite-element-points", finite_element_points, least=0)
-    inputs = {
-        **blade_attributes(blade), "omega": omega, "longest": longest, "points": points,
-        "finite_element_points": finite_element_points,
+    inputs = request.inputs(
+        omega=omega, longest=longest, points=points, finite_element_points=finite_element_points,
         **{name: case.describe()[name] for name in ("element", "element_options", "elements")},
-    }  # fmt: skip
+    )  # fmt: skip
     if finite_element_points:
         # Before the transients are computed, for the runs cannot be.
         try:

@@ -12,37 +12,23 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..runs.attributes import theory_attributes
 from .job import Results
-from .motion import configured, omega_of
-from .options import (
-    Config,
-    Dampings,
-    Loads,
-    NoFigure,
-    Number,
-    TheoryPairs,
-    Whole,
-    option_of,
-    theory_of,
-)
+from .options import NoFigure, Number, Whole, one_of, option_of
 from .output import bar, formatted, print_columns, print_text
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.driven.forced_orbits import ForcedResponse
 
 
+@uses("omega", "load", "damping", "theory")
 def respond(
+    request: Request,
     *,
     first: Annotated[Number, Parameter(name="--from")],
     last: Annotated[Number, Parameter(name="--to")],
-    omega: Number | None = None,
-    loads: Loads = Loads(),
-    dampings: Dampings = Dampings(),
     points: Whole = 41,
-    theory: TheoryPairs = None,
     functions: Whole = 10,
-    config: Config = None,
     no_figure: NoFigure = False,
     results: Results = Results(),
 ) -> None:
@@ -54,12 +40,10 @@ def respond(
     Parameters
     ----------
     first
-        Drive frequency at which the curve begins [rad/s]; under gravity the rotation speed, for it
-        goes around once a turn.
+        Drive frequency at which the curve begins [rad/s]; under gravity, which goes around once a
+        turn, the rotation speed, in place of --omega.
     last
         Drive frequency at which it ends [rad/s].
-    omega
-        Rotation speed [rad/s], unless [motion] of the file has it; not under gravity.
     points
         Number of frequencies, ends included, at which the curve has points.
     functions
@@ -72,34 +56,33 @@ def respond(
     """
     from ..datasets import response_inputs
 
-    load = loads.one()
-    file = configured(config, "motion.omega", "theory")
-    blade, law = dampings.on(file.blade), theory_of(file, theory)
-    if blade is file.blade and not any(blade.unit.damping):  # and no zero is given
+    load, blade = one_of(request.loads), request.blade
+    told = {"damping_ratio", "external_damping"} & request.options.keys()  # perhaps as zero
+    if not told and not any(blade.unit.damping):
         raise ValueError(
             "the blade is undamped, and at resonance its response has no end: give "
             "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"
         )
+    omega = None
     if load.varied == "frequency":
-        omega = omega_of(file, omega)
-    elif omega is not None:
+        omega = request.omega
+    elif "omega" in request.options:
         raise ValueError(
             f"under --{option_of(type(load))} the rotation speeds are those --from one --to "
             "another: leave --omega out"
         )
-    elif file.motion:
-        warn(f"{config}: under --{option_of(type(load))} omega of [motion] is not used")
+    elif "omega" in request.values:
+        warn(f"{request.config}: under --{option_of(type(load))} omega of [motion] is not used")
     if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
     frequencies = np.linspace(first, last, whole_number("points", points, least=2))
-    inputs = {
+    inputs = request.inputs(
         **response_inputs(blade, load, omega),
-        "from": first, "to": last, "points": points, "functions": functions,
-        **theory_attributes(law),
-    }  # fmt: skip
+        **{"from": first, "to": last, "points": points, "functions": functions},
+    )
 
     def computed() -> ForcedResponse:
-        how: Any = {"theory": law, "functions": functions}
+        how: Any = {"theory": request.theory, "functions": functions}
         with bar("following the curve"):
             if omega is None:
                 return analytic.forced_response(blade, frequencies, load, **how)

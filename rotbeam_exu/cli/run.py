@@ -12,12 +12,11 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
-from ..runs.attributes import blade_attributes, theory_attributes
 from ..runs.check import energy_drift
 from .job import Flag, Results
-from .motion import Discretization, Driving, configured, motion_of
-from .options import Config, NoFigure, Number, RampTime, SteadySpeed, TheoryPairs, Whole, theory_of
+from .options import NoFigure, Number, Whole
 from .output import bar, print_line
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.driven.response import SpinUpResponse
@@ -27,15 +26,12 @@ if TYPE_CHECKING:
     from ..verification.assessment import Assessment
 
 
+@uses("speed", "ramp_time", "discretization", "loads", "damping")
 def run(
+    request: Request,
     *,
-    omega: SteadySpeed = None,
-    ramp_time: RampTime = None,
-    discretization: Discretization = Discretization(),
-    driving: Driving = Driving(),
     stations: Whole | None = None,
     no_exact: Annotated[Flag, Parameter(name="--no-exact")] = False,
-    config: Config = None,
     no_figure: NoFigure = False,
     results: Results = Results(),
 ) -> None:
@@ -62,14 +58,11 @@ def run(
     from ..runs.oscillation import steady_oscillation
     from ..verification.assessment import assess
 
-    file = configured(config, "motion", "numerics", "loads")
-    numerics = discretization.over(file.numerics)
-    case = driving.spin_up_case(file, numerics, omega, ramp_time)
-    given = omega is not None or "omega" in file.motion
-    chosen = "" if given else ", the benchmark's"
+    case = request.case()
+    chosen = "" if "omega" in request.values else ", the benchmark's"
     count = 0 if stations is None else whole_number("stations", stations, least=2)
     kept = np.linspace(0.0, case.blade.length, count)
-    name = f"{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
+    name = f"{request.mesh}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
 
     def computed() -> xr.Dataset:
         from ..fem.simulation import run_case
@@ -84,7 +77,7 @@ def run(
             raise RuntimeError(f"{error}; the run itself is in {results.out / name}.nc") from error
         with bar("exact frequencies"):
             found = assess(case, steady, exact=not no_exact)
-        _print_inputs(case, f"{numerics.element}", chosen)
+        _print_inputs(case, request.values["element"], chosen)
         _print_results(data, steady, found)
         return found
 
@@ -145,15 +138,12 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
     print_line("verdict", found.sentence)
 
 
+@uses("speed", "ramp_time", "duration", "theory")
 def reference(
+    request: Request,
     *,
-    omega: SteadySpeed = None,
-    ramp_time: RampTime = None,
-    duration: Number | None = None,
     samples: Whole = 1501,
     tolerance: Number = 1e-8,
-    theory: TheoryPairs = None,
-    config: Config = None,
     results: Results = Results(),
 ) -> None:
     """Write the exact spin-up as netCDF and CSV.
@@ -163,8 +153,6 @@ def reference(
 
     Parameters
     ----------
-    duration
-        Last time that is written [s].
     samples
         Number of times that are written, evenly spaced from 0.
     tolerance
@@ -175,24 +163,19 @@ def reference(
     $ rotbeam reference
     $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
     """
-    file = configured(config, "motion", "numerics.duration", "theory")
-    if duration is None:
-        duration = file.numerics.get("duration")
-    law, tolerance = theory_of(file, theory), positive("tolerance", tolerance)
+    motion, tolerance = request.motion, positive("tolerance", tolerance)
     samples = whole_number("samples", samples, least=2)
-    motion = motion_of(file, omega=omega, ramp_time=ramp_time, duration=duration)
     spin_up = motion.spin_up
-    inputs = {
-        **blade_attributes(file.blade), "omega": spin_up.omega, "ramp_time": spin_up.ramp_time,
-        "duration": motion.duration, "samples": samples, "tolerance": tolerance,
-        **theory_attributes(law),
-    }  # fmt: skip
+    inputs = request.inputs(
+        omega=spin_up.omega, ramp_time=spin_up.ramp_time, duration=motion.duration,
+        samples=samples, tolerance=tolerance,
+    )  # fmt: skip
     times = np.linspace(0.0, motion.duration, samples)
 
     def computed() -> SpinUpResponse:
         with bar("integrating"):
             return analytic.spin_up_response(
-                file.blade, spin_up, times, tolerance=tolerance, theory=law
+                request.blade, spin_up, times, tolerance=tolerance, theory=request.theory
             )
 
     name = f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,19 +13,10 @@ from analytic.input_checks import not_negative
 
 from ..files.result_tables import parts
 from ..lazily import xr
-from ..runs.attributes import blade_attributes, theory_attributes
 from .job import Results
-from .motion import configured, omega_of
-from .options import (
-    Amplitudes,
-    Config,
-    Number,
-    Omega,
-    SectionOptions,
-    TheoryPairs,
-    theory_of,
-)
+from .options import Amplitudes, Number
 from .output import bar, formatted, print_columns, print_text
+from .request import Request, uses
 
 if TYPE_CHECKING:
     from analytic.exact.free.stability_limit import StabilityLimit
@@ -34,15 +25,13 @@ if TYPE_CHECKING:
 _AMPLITUDES = [0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6]
 
 
+@uses("omega", "section", "theory")
 def stability(
+    request: Request,
     *,
-    omega: Omega = None,
-    shape: SectionOptions = SectionOptions(),
     amplitude: Amplitudes = _AMPLITUDES,
     mode: str = "lag 1",
     damping_ratio: Number = 0.0,
-    theory: TheoryPairs = None,
-    config: Config = None,
     results: Results = Results(),
 ) -> None:
     """Find whether motion in the plane of rotation stays in it.
@@ -68,33 +57,31 @@ def stability(
     $ rotbeam stability --omega 2 --section rectangle --damping-ratio 0.005
     """
     not_negative("damping-ratio", damping_ratio)
-    file = configured(config, "motion.omega", "theory")
-    omega = omega_of(file, omega)
-    blade = shape.of(file.blade)
-    require_planar(
-        blade, "planar motion is of", "rotbeam backbone --exact, whose orbits are in space"
-    )
+    blade, omega = request.blade, request.omega
+    require_planar(blade, "planar motion is of", "rotbeam backbone, whose orbits are in space")
     if blade.section.out_of_plane is None:
         raise ValueError(
             "the section out of the plane is unknown: give --section rectangle or --section tube, "
             "or [blade.section.out_of_plane] in --config"
         )
     amplitudes = sorted(set(amplitude))
-    asked = " ".join(f"{a:.17g}" for a in amplitudes)
-    inputs = {**blade_attributes(blade), "omega": omega, "mode": mode, "amplitudes": asked}
-    law = theory_of(file, theory)
-    inputs |= {"damping_ratio": damping_ratio, **theory_attributes(law)}
-    how: Any = {"damping": damping_ratio, "theory": law}
+    digits = " ".join(f"{a:.17g}" for a in amplitudes)
+    inputs = request.inputs(omega=omega, mode=mode, amplitudes=digits, damping_ratio=damping_ratio)
+    theory = request.theory
 
     def computed() -> tuple[GrowthOutOfPlane, StabilityLimit, xr.Dataset]:
         with bar("growth out of the plane"):
-            limit = analytic.stability_limit(blade, omega, mode, largest=amplitudes[-1], **how)
-            orbits = analytic.periodic_orbits(undamped(blade), omega, amplitudes, mode, theory=law)
+            limit = analytic.stability_limit(
+                blade, omega, mode, largest=amplitudes[-1], damping=damping_ratio, theory=theory
+            )
+            orbits = analytic.periodic_orbits(
+                undamped(blade), omega, amplitudes, mode, theory=request.theory
+            )
             found = orbits.out_of_plane(damping_ratio, blade_damping=blade.damping)
         return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 
     results.job(
-        f"stability-{shape.name}-omega-{omega:g}-{mode.replace(' ', '-')}", inputs, computed,
+        f"stability-{request.section}-omega-{omega:g}-{mode.replace(' ', '-')}", inputs, computed,
         lambda found, _: _print(*found[:2]),
         table=lambda data: parts(data)["growth_rate"],
         draw=lambda figures, data: figures.planar_stability(data),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -14,33 +13,26 @@ from analytic.warning import warn
 from .. import paper
 from ..lazily import xr
 from .job import Flag, Results
-from .motion import (
-    Discretization,
-    Driving,
-    chosen_speeds,
-    chosen_times,
-    configured,
-    grid_motion,
-    refuse_rest,
-)
-from .options import Config, Number, Numbers, RampTime, SteadySpeed, Whole, Workers
+from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
+from .options import Number, Numbers, Whole, Workers
 from .output import formatted, print_columns, print_line, print_note, print_text
+from .request import Request, uses
 
 
+@uses("motion", "discretization", "loads", "damping")
 def sweep(
+    request: Request,
     *,
     omega: Numbers = None,
     ramp_time: Numbers = None,
-    discretization: Discretization = Discretization(),
-    driving: Driving = Driving(),
     workers: Workers = Workers(),
-    config: Path | None = None,
     results: Results = Results(),
 ) -> None:
     """Spin the beam up over a grid of speeds and ramp times.
 
-    The default is the paper's grid. Failed cases stay on record and end in exit code 1; a sweep
-    that was stopped goes on where it stopped.
+    The default is the paper's grid; a speed or ramp time in [motion] of a file is the grid's only
+    one, unless others are given. Failed cases stay on record and end in exit code 1; a sweep that
+    was stopped goes on where it stopped.
 
     Parameters
     ----------
@@ -48,9 +40,6 @@ def sweep(
         Steady angular velocities [rad/s].
     ramp_time
         Ramp times T [s].
-    config
-        TOML file with the beam, and optionally [numerics]; a speed or ramp time in its [motion] is
-        the grid's only one, unless others are given.
 
     Examples
     --------
@@ -60,24 +49,22 @@ def sweep(
     """
     from ..sweeps.grid import sweep as run_sweep
 
-    file = configured(config, "motion", "numerics", "loads")
-    blade = driving.dampings.on(file.blade)
-    numerics = discretization.over(file.numerics)
+    blade, given = request.blade, request.values
     omegas, ramp_times = omega, ramp_time
     if omegas is None:
-        known = file.motion.get("omega")
-        omegas = chosen_speeds(file.blade, *paper.SPEEDS) if known is None else [known]
+        omegas = [given["omega"]] if "omega" in given else chosen_speeds(blade, *paper.SPEEDS)
     if ramp_times is None:
-        known = file.motion.get("ramp_time")
-        scaled = chosen_times(file.blade, *paper.RAMP_TIMES, digits=4)
-        ramp_times = scaled if known is None else [known]
+        scaled = chosen_times(blade, *paper.RAMP_TIMES, digits=4)
+        ramp_times = [given["ramp_time"]] if "ramp_time" in given else scaled
     refuse_rest(*omegas)
-    motion = grid_motion(blade, omegas, ramp_times, duration=numerics.duration, step=numerics.step)
+    motion = grid_motion(
+        blade, omegas, ramp_times, duration=given.get("duration"), step=given.get("step")
+    )
     count = len(omegas) * len(ramp_times)
-    one = numerics.case(blade, motion, driving.chosen(file.loads))
+    one = request.case(motion)
 
     def computed() -> xr.Dataset:
-        if config is not None:
+        if request.config is not None:
             speeds, times = (", ".join(f"{x:g}" for x in of) for of in (omegas, ramp_times))
             print_text(f"ω = {speeds} rad/s, T = {times} s (by default the benchmark's ω/ω_0)")
         with workers.counted("spin-ups") as how:
@@ -87,7 +74,7 @@ def sweep(
                 loads=one.loads, on_error="record", **how,
             )  # fmt: skip
 
-    name, grid = f"sweep-{numerics.name}", {"omega": omegas, "ramp_time": ramp_times}
+    name, grid = f"sweep-{request.mesh}", {"omega": omegas, "ramp_time": ramp_times}
     failed = results.job(name, {**one.describe(), **grid}, computed, _print)
     if failed:
         raise RuntimeError(
@@ -123,17 +110,14 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
     return sum(map(len, failed.values()))
 
 
+@uses("speed", "ramp_time", "discretization", "loads", "damping")
 def converge(
+    request: Request,
     *,
-    omega: SteadySpeed = None,
-    ramp_time: RampTime = None,
     tolerance: Number = 1e-4,
     count: Whole = 3,
-    discretization: Discretization = Discretization(),
-    driving: Driving = Driving(),
     no_exact: Annotated[Flag, Parameter(name="--no-exact")] = False,
     workers: Workers = Workers(),
-    config: Config = None,
     results: Results = Results(),
 ) -> None:
     """Print the errors of a mesh and a step, and which to take.
@@ -158,9 +142,7 @@ def converge(
     """
     from .. import comparison
 
-    file = configured(config, "motion", "numerics", "loads")
-    numerics = discretization.over(file.numerics)
-    case = driving.spin_up_case(file, numerics, omega, ramp_time)
+    case = request.case()
     whole_number("elements", case.elements, least=2)
     whole_number("count", count)
     inputs = {**case.describe(), "tolerance": positive("tolerance", tolerance)}
@@ -171,7 +153,7 @@ def converge(
         with workers.counted(pieces, pieces) as how:
             return comparison.refinement(case, count=count, tolerance=tolerance, exact=exact, **how)
 
-    name = f"converge-{numerics.name}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
+    name = f"converge-{request.mesh}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"
     results.job(name, inputs, computed, _print_errors)
 
 

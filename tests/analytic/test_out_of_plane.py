@@ -12,7 +12,7 @@ from analytic.description import describe, from_description
 from analytic.section import OutOfPlane
 from analytic.section_shape import Count, Gyration, Length, SectionShape
 from analytic.section_shapes import Box
-from rotbeam_exu.cli.options import SectionOptions
+from rotbeam_exu.cli.options import blade_of
 
 BEAM = Beam.reference()
 UNIT = Blade(
@@ -138,7 +138,7 @@ def test_a_new_shape_is_one_class():
     square = UNIT.with_shape(Rectangle(ratio=1.0)).section.out_of_plane
     assert blade.section.out_of_plane.torsion_ratio == pytest.approx(square.torsion_ratio, rel=1e-3)
     assert from_description(describe(Diamond(side=0.1)), SectionShape) == Diamond(side=0.1)
-    assert SectionOptions(section="diamond").of(UNIT) == blade
+    assert blade_of(UNIT, {"section": "diamond"}) == blade
     with pytest.raises(ValueError, match="Diamond.*has I/A = .*side=0.003464 fits it"):
         UNIT.with_shape(Diamond(side=0.1))
     # No square has both I and A of the strip, and I and A alone make no box.

@@ -6,7 +6,6 @@ import pytest
 from analytic import Tube, linear_modes
 from rotbeam_exu import load
 from rotbeam_exu.cli.campbell import campbell as command
-from rotbeam_exu.cli.options import SectionOptions
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import BLADE_TOML, REED, REED_TOML
 
@@ -32,8 +31,7 @@ def test_a_beam_of_ones_own_goes_up_to_its_own_speeds(beam, tmp_path):
 
 def test_the_modes_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
     options = {"omega_max": 12.0, "points": 2, "count": 3, "orders": 6}
-    shape = SectionOptions(section="tube")
-    command(**options, shape=shape, out=tmp_path, frequency_max=80.0)
+    command(**options, section="tube", out=tmp_path, frequency_max=80.0)
     printed = capsys.readouterr().out
     modes = linear_modes(beam.with_shape(Tube()), 12.0, 4)
     written = sorted(path.name for path in tmp_path.iterdir())
@@ -48,7 +46,7 @@ def test_the_modes_of_a_known_section_and_their_figure(beam, capsys, tmp_path):
         frequency = known[name]
         assert found["frequency"].sel(mode=name)[-1] == pytest.approx(frequency, rel=1e-9)
     with pytest.raises(FileExistsError, match="--force"):
-        command(**options | {"points": 4}, shape=shape, out=tmp_path)
+        command(**options | {"points": 4}, section="tube", out=tmp_path)
 
 
 def test_a_diagram_without_crossings_is_written_too(tmp_path):

@@ -11,7 +11,7 @@ def test_each_command_has_one_line_at_eighty_columns(call, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     _, out, _ = call("--help")
     listed = re.findall(r"^│ ([a-z]+) {2,}(\S.*\S) +│$", out, re.MULTILINE)
-    assert tuple(name for name, _ in listed) == _COMMANDS
+    assert tuple(name for name, _ in listed) == tuple(_COMMANDS)
     assert all(summary.endswith(".") for _, summary in listed)
 
 

@@ -29,7 +29,7 @@ def test_the_same_inputs_may_be_run_again_and_others_are_refused_first(call, tmp
             (("--omega", "6.0000001"), "omega 6 instead of 6.0000001"),
             (
                 ("--config", tmp_path / "beam.toml", "--omega", "6", "--ramp-time", "3"),
-                "beam_area 7.299e-05 instead of 1",
+                "instead of {'kind': 'Beam', 'length': 8.0, 'area': 1.0",
             ),
         ):
             arguments = dict(zip(SHORT[::2], SHORT[1::2], strict=True))
