@@ -242,6 +242,24 @@ class SpaceContinuum:
         """Number of functions for each curvature."""
         return self.functions.reach[0] * self.blade.panel_count
 
+    def needed(self, q: FloatArray, within: float) -> int:
+        """Return the functions for each curvature that states (samples, n) need.
+
+        By their last degrees the coordinates are to fall below the share `within` of the largest,
+        as they do from half of the degrees on.
+        """
+        bending, torsion = self.families[:2]
+        degrees = self.functions.bending
+        parts = np.split(np.abs(q).max(axis=0), (bending, bending + torsion))[: 1 + bool(torsion)]
+        sizes = np.max([part.reshape(degrees, -1).max(axis=1) for part in parts], axis=0)
+        sizes = np.maximum.accumulate(sizes[::-1])[::-1]
+        wanted, last = within * sizes[0], sizes[-2]
+        if last <= wanted:
+            return self.bending
+        fall = np.log(sizes[degrees // 2 - 1] / last) / (degrees - 1 - degrees // 2)
+        more = min(np.ceil(np.log(last / wanted) / fall) if fall else np.inf, degrees)
+        return int((degrees + more) * self.functions.blade.panel_count)
+
     def tip(self, q: FloatArray) -> FloatArray:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""
         return np.asarray((self._state(q).slope @ self.weights).T)
