@@ -86,8 +86,8 @@ def _mass_of(columns: FloatArray, center: FloatArray) -> FloatArray:
     return moved(columns[:, [0, 0, 0, 1, 2, 3], None] * np.eye(6), center)
 
 
-def _to_centers(matrices: FloatArray) -> FloatArray:
-    """Return T (stations, 6, 6), by which strains, or velocities, are those at the centers.
+def about_centers(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return T, by which strains, or velocities, are those at the centers, and T⁻ᵀ S T⁻¹.
 
     ε at the center of tension, where it does not couple with bending, and shear at the center of
     shear, where it does not couple with torsion; of a mass both are at its center.
@@ -95,7 +95,8 @@ def _to_centers(matrices: FloatArray) -> FloatArray:
     onto = np.tile(np.eye(6), (len(matrices), 1, 1))
     onto[:, 0, 4:] = matrices[:, 0, 4:] / matrices[:, :1, 0]
     onto[:, 1:3, 3:4] = np.linalg.solve(matrices[:, 1:3, 1:3], matrices[:, 1:3, 3:4])
-    return onto
+    back = 2.0 * np.eye(6) - onto
+    return onto, np.swapaxes(back, 1, 2) @ matrices @ back
 
 
 def section_of_table(
@@ -199,9 +200,7 @@ class StationSection(Section):
     @cached_property
     def _about_centers(self) -> FloatArray:
         """T and T⁻ᵀ S T⁻¹ of stiffness and mass, (2, 2, stations, 6, 6)."""
-        onto = np.stack([_to_centers(kind) for kind in self._arrays])
-        back = 2.0 * np.eye(6) - onto
-        return np.stack((onto, np.swapaxes(back, -1, -2) @ self._arrays @ back))
+        return np.stack([about_centers(kind) for kind in self._arrays], axis=1)
 
     @cached_property
     def _linear(self) -> FloatArray:
@@ -248,15 +247,6 @@ class StationSection(Section):
     def couples(self, one: tuple[int, ...], other: tuple[int, ...]) -> bool:
         """Whether an entry of any matrix couples two sets of axes."""
         return bool(self._arrays[:, :, one][..., other].any())
-
-    @property
-    def has_kinks_in_mass(self) -> bool:
-        """Whether the slope of the center of mass, or of the mass about it, changes anywhere."""
-        ends = self._linear[:, 1]
-        size = np.sqrt(np.abs(np.einsum("sii->si", self._arrays[1])).max(axis=0))
-        scale = np.stack((np.abs(ends[0]).max(axis=0), np.outer(size, size)))
-        slopes = np.diff(ends, axis=1) / np.diff(self.x)[:, None, None]
-        return bool(np.any(np.ptp(slopes, axis=1) > 1e-9 * scale / self.x[-1]))
 
     @property
     def inertia_against_torsion(self) -> Profile:

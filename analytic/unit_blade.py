@@ -52,6 +52,10 @@ class UnitBlade:
         """Profiles along the blade."""
         return self.mass, self.bending, self.axial, self.rotary
 
+    def stiffnesses(self, x: FloatArray) -> list[FloatArray]:
+        """Return the stiffnesses at `x`, whose inverse is integrated."""
+        return [evaluated(profile, x) for profile in (self.bending, self.axial)]
+
     @cached_property
     def cells(self) -> FloatArray:
         """Ends of the cells on which the section is smooth and nowhere steep, 0 to 1."""
@@ -63,7 +67,7 @@ class UnitBlade:
     def _gentle(self, start: float, end: float) -> list[float]:
         """Return the ends of the cells, after `start`, into which a smooth stretch is halved."""
         at = np.linspace(start, end, 9)
-        values = [evaluated(profile, at) for profile in (self.bending, self.axial)]
+        values = self.stiffnesses(at)
         if end - start < _SAME or all(v.max() <= _STEEPEST * v.min() for v in values):
             return [end]
         middle = 0.5 * (start + end)

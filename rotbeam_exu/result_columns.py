@@ -178,7 +178,7 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
             "crossing_omega": _each("crossing", "omega", OMEGA),
             "crossing_frequency": _each("crossing", "frequency", "frequency [rad/s]"),
         },
-        (),
+        ("error",),
     ),
     PaperTable: (
         {

@@ -8,25 +8,22 @@ Gauss's points, of order 2s, damp nothing: they tell whether a motion grows.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
 
-from ..arrays import FloatArray
+from ..arrays import ComplexArray, FloatArray
 from ..lazily import special
-from .newton import Newton, Root, factored
+from .newton import Newton, Root, Vector, factored, solved
 from .system import Tangent
 
 Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
 
-# Of the coordinates, which are of order 1.
 OWN_TANGENT = Newton(converged=1e-13, slow=0.2, steps=12)
-# The tangent of a step before contracts what is stiff slower than the rest, so the first small
-# change is not the last.
-TANGENT_BEFORE = Newton(converged=1e-15, stagnates=1e-13, slow=0.8, steps=20, broyden=True)
+"""Of coordinates of order 1."""
 
 
 class Collocation:
@@ -42,10 +39,31 @@ class Collocation:
         self.last_velocity = self.integral(np.ones(1))[0]
         self.last_position = self.last_velocity @ self.velocity
 
+    @property
+    def last_term(self) -> FloatArray:
+        """Matrix (stages,) from values at the nodes to the last term of their Legendre series."""
+        return np.asarray(self._to_legendre[-1])
+
     def values(self, at: FloatArray) -> FloatArray:
         """Matrix (at, stages) from values at the nodes to values of their interpolant."""
         waves = legendre.legvander(2.0 * at - 1.0, self.nodes.size - 1)
         return np.asarray(waves @ self._to_legendre, dtype=np.float64)
+
+    def ahead(self, values: FloatArray, at: FloatArray) -> FloatArray:
+        """Return the values (at, n) to which those at the nodes (stages, n) go on after the step.
+
+        Of their Legendre series up to the term that is least there: the next ones grow beyond.
+        """
+        series = self._to_legendre @ values
+        waves = legendre.legvander(2.0 * at - 1.0, self.nodes.size - 1)
+        sizes = np.abs(series).max(axis=1) * np.abs(waves[-1])
+        few = int(np.argmin(sizes)) + 1
+        return np.asarray(waves[:, :few] @ series[:few])
+
+    def among(self, few: list[int]) -> FloatArray:
+        """Matrix (stages, few) from values at a few of the nodes to their interpolant at all."""
+        waves = legendre.legvander(2.0 * self.nodes - 1.0, len(few) - 1)
+        return np.asarray(waves @ np.linalg.inv(waves[few]))
 
     def integral(self, at: FloatArray) -> FloatArray:
         """Matrix (at, stages) from values at the nodes to the integral of their interpolant."""
@@ -73,6 +91,30 @@ class Collocation:
         blocks[range(s), :, range(s), :] += tangent.mass
         return np.asarray(blocks.reshape(s * n, s * n), dtype=np.float64)
 
+    @cached_property
+    def _apart(self) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+        """Eigenvalues of the velocities' matrix, one of each pair, and what goes to and fro."""
+        values, vectors = np.linalg.eig(self.velocity)
+        one = values.imag >= 0.0
+        back = vectors[:, one] * np.where(values.imag[one] > 0.0, 2.0, 1.0)
+        return values[one], back, np.linalg.inv(vectors)[one]
+
+    def solver(self, h: float, tangent: Tangent) -> Vector:
+        """Return the solution of a step's linear equations with the same tangent at all nodes.
+
+        In the eigenvectors of the velocities' matrix, A = TΛT⁻¹, they fall apart into
+        h²λ²K + hλD + M for every pair of eigenvalues λ (Hairer and Wanner 1996, Sec. IV.8).
+        """
+        values, back, onto = self._apart
+        p = h * values[:, None, None]
+        inverse = np.linalg.inv(p**2 * tangent.stiffness + p * tangent.damping + tangent.mass)
+
+        def solve(defect: FloatArray) -> FloatArray:
+            parts = onto @ defect.reshape(self.nodes.size, -1)
+            return np.asarray((back @ (inverse @ parts[..., None])[..., 0]).real.ravel())
+
+        return solve
+
     def step(
         self,
         h: float,
@@ -83,12 +125,12 @@ class Collocation:
         residual: Residual,
         tangent: Linearization,
         newton: Newton = OWN_TANGENT,
-        factors: Any = None,
+        near: Tangent | None = None,
     ) -> Root | None:
         """Return the accelerations (stages, n) that make the residuals zero, None if not found.
 
-        The factors of a step's tangent may serve in the next one of the same length, by
-        `TANGENT_BEFORE`.
+        A tangent `near` by (n, n) is tried first, the same at all nodes; that of the root returned,
+        among its `factors`, may serve in steps of any length after it.
         """
 
         def state(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -98,14 +140,16 @@ class Collocation:
             at = tangent(*state(z))
             # Single precision leaves nothing of thin strips, which are a thousand times stiffer
             # one way than the other.
-            return factored(self.matrix(h, at), single=False), at.residual.ravel()
+            solve = partial(solved, factored(self.matrix(h, at), single=False))
+            return (solve, at), at.residual.ravel()
 
         found = newton.root(
             guess.ravel(),
             lambda z: residual(*state(z)).ravel(),
             linearized,
             size=lambda _, z: float(np.abs(h**2 * self.position @ z.reshape(guess.shape)).max()),
-            factors=factors,
+            factors=None if near is None else (self.solver(h, near), near),
+            solve=lambda factors, defect: factors[0](defect),
         )
         return None if found is None else found._replace(z=found.z.reshape(guess.shape))
 

@@ -66,6 +66,7 @@ class Newton:
         *,
         size: Callable[[FloatArray, FloatArray], float] = lambda z, change: length(change),
         factors: Any = None,
+        solve: Callable[[Any, FloatArray], FloatArray] | None = None,
         products: Callable[[FloatArray], Vector] | None = None,
     ) -> Root | None:
         """Return the root near `z`, None if none is found.
@@ -76,11 +77,13 @@ class Newton:
         residual : callable
             Of z, (N,).
         linearized : callable
-            Of z: the factors of the tangent, as `factored` returns them, and the residual.
+            Of z: the factors of the tangent and the residual.
         size : callable
             Of z and a change: small after convergence.
         factors : optional
             Factors of a tangent near by, tried first.
+        solve : callable, optional
+            Of factors and a residual: the change. By default `solved`, of what `factored` returns.
         products : callable, optional
             Of z: the function that multiplies the tangent there with a vector (N,).
         """
@@ -104,7 +107,7 @@ class Newton:
             if not np.all(np.isfinite(defect)):
                 return None
             if change is None:
-                change = solved(factors, defect)
+                change = (solve or solved)(factors, defect)
                 if self.broyden:
                     change = _improved(change, steps)
                     steps.append(change)

@@ -31,15 +31,16 @@ def campbell(
     points: Whole = 13,
     count: Whole = 3,
     orders: Whole = 6,
+    tolerance: Number | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: Number | None = None,
     force: Flag = False,
 ) -> None:
     """Print frequencies over the speed, and where they cross k ω.
 
-    Exact, extensible beam about its steady rotation; modes are tracked by shape, and resolved until
-    half as many functions again change no frequency by 1e-9. Lag and axial modes, and where the
-    section out of the plane is known, flap and torsion.
+    Exact, extensible beam about its steady rotation; modes are tracked by shape, and resolved to a
+    tolerance. Lag and axial modes, and where the section out of the plane is known, flap and
+    torsion.
 
     Parameters
     ----------
@@ -53,6 +54,9 @@ def campbell(
         Number of modes, those lowest at the first speed.
     orders
         Lines k ω up to this k.
+    tolerance
+        Largest relative error of the frequencies; unless given 1e-9, and 1e-6 for a table of
+        stations.
     out
         Folder for netCDF, CSV and the figure; without it none is written.
     frequency_max
@@ -74,7 +78,9 @@ def campbell(
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
     with bar("modes"):
-        diagram = analytic.campbell(blade, speeds, count, orders, theory=request.theory)
+        diagram = analytic.campbell(
+            blade, speeds, count, orders, theory=request.theory, tolerance=tolerance
+        )
     if out is None:
         _print(diagram)
         return

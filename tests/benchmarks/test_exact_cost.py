@@ -1,6 +1,7 @@
 """Cost of exact answers, against the simulation they judge, in the same run; and models."""
 
 import time
+from pathlib import Path
 from statistics import median
 
 import numpy as np
@@ -21,6 +22,7 @@ from analytic import (
 )
 from analytic.quadrature import gauss_points
 from rotbeam_exu import simulate
+from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import unit_beam
 
 pytestmark = pytest.mark.benchmarks
@@ -88,6 +90,28 @@ def test_a_spin_up_in_space_takes_forty_times_that_in_the_plane():
         for blade in (FLAT, FLAT.with_twist(0.5236))
     )
     assert space < 40.0 * plane, f"{space:.3f} s against {plane:.4f} s"
+
+
+def test_a_real_blade_spins_up_in_seconds_and_by_digits():
+    """NREL's blade for 15 s, whose 49 stations are in space."""
+    blade = load_beam(Path(__file__).parents[2] / "models" / "blades" / "nrel_5mw.toml")
+    motion, times = SpinUp(omega=1.267, ramp_time=10.0), np.linspace(0.0, 15.0, 151)
+    three, four, six = (
+        cpu_seconds(lambda t=tolerance: spin_up_response(blade, motion, times, tolerance=t))
+        for tolerance in (1e-3, 1e-4, 1e-6)
+    )
+    assert four < 3.0
+    assert six < 10.0
+    assert three < 0.2 * six, f"{three:.3f} s against {six:.3f} s"
+
+
+def test_a_blade_whose_tip_lags_by_most_of_its_length_spins_up_in_seconds():
+    blade, theory = FLAT.with_twist(0.6), Theory(rotary_inertia=True, trapeze=False)
+    motion, times = SpinUp(omega=3.0, ramp_time=1.2), [0.5, 1.0, 1.5]
+    took = cpu_seconds(
+        lambda: spin_up_response(blade, motion, times, tolerance=1e-4, theory=theory)
+    )
+    assert took < 5.0
 
 
 @pytest.mark.parametrize(("omega", "ramp_time"), [(6.0, 3.0), (8.0, 2.0)])

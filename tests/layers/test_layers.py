@@ -16,8 +16,8 @@ ROOT = Path(__file__).parents[2]
 FLOORS = {
     "analytic": [
         {"arrays", "description", "lazily", "letters", "threads", "warning"},
-        {"input_checks", "quadrature", "settled", "methods", "plotting"},
-        {"motion", "theory"},
+        {"input_checks", "quadrature", "methods", "plotting"},
+        {"motion", "settled", "theory"},
         {"parts", "section", "unit_blade", "loads", "ramps"},
         {"shape_functions", "section_shape", "station_section"},
         {"blade", "meshed_section", "section_shapes"},

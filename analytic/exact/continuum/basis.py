@@ -1,12 +1,13 @@
 """Strains of the blade in space: functions orthonormal in its stiffness, and its slices' masses.
 
 As in the plane, the strains follow from moments and forces that are polynomials, or mass times
-polynomials, in a frame without twist. Twist, kinks and steps of the section cause none in them.
+polynomials, in a frame without twist. Twist, kinks and steps of the section cause none in them, but
+where they couple forces or jump aside: there answers make further functions.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -17,6 +18,7 @@ from ...arrays import FloatArray, evaluated, slope_of
 from ...quadrature import Grid
 from ...shape_functions import shape_functions
 from ...theory import Theory
+from .answers import Answers, beside
 from .unit import SpaceUnit, trapeze_of
 
 _MORE = 10  # points on each cell beyond twice the functions: frames turn with the sine of angles
@@ -63,12 +65,12 @@ class Strains:
         return bool(self.trapeze.any() and self.K[0].any())
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StrainFunctions:
     """Functions for the strains of a blade by a theory, as many on every panel.
 
-    Coordinates stand in the order κ3 and κ2 in pairs, κ1, ε, γ2, γ3; a larger set of each begins
-    with a smaller one.
+    Coordinates stand in the order κ3 and κ2 in pairs, κ1, ε, γ2, γ3, answers; a larger set of each
+    begins with a smaller one.
     """
 
     blade: SpaceUnit
@@ -77,6 +79,7 @@ class StrainFunctions:
     bending: int  # functions a panel for each curvature of bending
     torsion: int  # for κ1
     axial: int  # for ε and each γ
+    answers: Answers | None = None
 
     @cached_property
     def counts(self) -> tuple[int, int, int, int]:
@@ -91,24 +94,39 @@ class StrainFunctions:
 
     @property
     def families(self) -> tuple[int, ...]:
-        """Functions of each family: both curvatures, κ1, ε, γ2, γ3."""
+        """Functions of each family: both curvatures, κ1, ε, γ2, γ3, answers."""
         bending, torsion, axial, shear = self.counts
-        return bending, torsion, axial, shear // 2, shear // 2
+        answers = 0 if self.answers is None else self.answers.count
+        return bending, torsion, axial, shear // 2, shear // 2, answers
 
     @property
     def size(self) -> int:
         """Number of coordinates."""
-        return sum(self.counts)
+        return sum(self.families)
 
-    def refined(self) -> StrainFunctions:
-        """Return half as many functions again, one more at least."""
-        more = (n + max(n // 2, 1) for n in (self.bending, self.torsion, self.axial))
-        return StrainFunctions(self.blade, self.theory, self.slenderness, *more)
+    @property
+    def reach(self) -> tuple[int, ...]:
+        """Numbers of polynomials, with those that are made up for."""
+        own = self.bending, self.torsion, self.axial
+        return own if self.answers is None else self.answers.reach
+
+    def refined(self, caused: FloatArray | None = None) -> StrainFunctions:
+        """Return half as many functions again, one more at least; of a table see `beside`."""
+        if self.blade.answers:
+            return replace(self, answers=beside(self, caused))
+        bending, torsion, axial = (
+            n + max(n // 2, 1) for n in (self.bending, self.torsion, self.axial)
+        )
+        return replace(self, bending=bending, torsion=torsion, axial=axial)
 
     @cached_property
     def grid(self) -> Grid:
         """Points at which fields are evaluated."""
-        more = _MORE if self.blade.cells.size <= _MANY_CELLS else _FEW
+        # More with each refinement, so that its change tells the error of these sums as well.
+        if self.answers is not None:
+            return self.answers.grid
+        few = max(_FEW, self.bending // 3) if self.blade.answers else _FEW
+        more = _MORE if self.blade.cells.size <= _MANY_CELLS else few
         return self.blade.grid(2 * self.bending, more, of_fields=True)
 
     @property
@@ -126,31 +144,45 @@ class StrainFunctions:
     def odd_by(self, *, mirror: bool) -> NDArray[np.bool_]:
         """Return the same of the half turn about the blade, or of the mirror through the axis."""
         bending, torsion, axial, shear = self.counts
+        answers = np.empty(0) if self.answers is None else self.answers.odd[int(mirror)]
         if not mirror:
-            kinds = [np.ones(bending), np.zeros(torsion + axial), np.ones(shear)]
+            kinds = [np.ones(bending), np.zeros(torsion + axial), np.ones(shear), answers]
         else:
             # Set for flap the section's own planes change places, those of the root frame do not.
             lag = np.tile([True, False], bending // 2)
             across = np.repeat([True, False], shear // 2)
-            kinds = [lag, np.ones(torsion), np.zeros(axial), across]
+            kinds = [lag, np.ones(torsion), np.zeros(axial), across, answers]
         return np.concatenate(kinds).astype(bool)
 
-    def _flexibility(self, x: FloatArray) -> FloatArray:
-        """Return strains over forces in the frame without twist, (places, 6, 6)."""
+    def _sections(self, x: FloatArray) -> FloatArray:
+        """Return forces or strains in the frame without twist over those in sections."""
         turned = np.zeros((x.size, 6, 6))
         turned[:, :3, :3] = turned[:, 3:, 3:] = np.moveaxis(self.blade.section_frames(x), -1, 0)
+        return turned
+
+    def flexibility(self, x: FloatArray) -> FloatArray:
+        """Return strains over forces in the frame without twist, (places, 6, 6)."""
+        turned = self._sections(x)
         soft = self.blade.flexibility(x, self.theory, self.slenderness)
         return np.asarray(turned @ soft @ np.swapaxes(turned, 1, 2))
+
+    def elastic(self, x: FloatArray, forces: FloatArray) -> FloatArray:
+        """Return the part of forces (places, 6, count) in that frame that strains answer."""
+        turned = self._sections(x)
+        back = np.swapaxes(turned, 1, 2)
+        return np.asarray(turned @ (self.blade.elastic(x, self.theory) @ (back @ forces)))
 
     def _forces(self, x: FloatArray) -> FloatArray:
         """Return forces and moments in that frame, (places, 6, n), polynomials or mass times these.
 
-        Those of a family have one component; those of bending have M3 and M2 in turn.
+        Those of a family have one component, but of answers; those of bending M3 and M2 in turn.
         """
         blade, bending = self.blade, self.counts[0]
         moments = shape_functions(blade, bending // 2)
         result = np.zeros((x.size, 6, self.size))
         result[:, 5, 0:bending:2] = result[:, 4, 1:bending:2] = moments.forces(x)
+        if self.answers is not None:
+            result[..., sum(self.counts) :] = self.answers.at(x)
         for rows, own in self._blocks[1:]:
             if rows == [3]:
                 result[:, 3, own] = blade.torques(own.stop - own.start, x)
@@ -162,17 +194,22 @@ class StrainFunctions:
     @cached_property
     def _blocks(self) -> list[tuple[list[int], slice]]:
         """The components of the families that there are, and their coordinates."""
-        ends = np.cumsum((0, *self.families)).tolist()
+        ends = np.cumsum((0, *self.families[:-1])).tolist()
         kinds = zip(([4, 5], [3], [0], [1], [2]), pairwise(ends), strict=True)
         return [(rows, slice(*ends)) for rows, ends in kinds if ends[1] > ends[0]]
 
     @cached_property
+    def _energy_grid(self) -> Grid:
+        """Points at which energies are evaluated: answers are known at those of fields."""
+        return self.grid if self.blade.answers else self.blade.grid(2 * self.bending, 14)
+
+    @cached_property
     def _own(self) -> tuple[FloatArray, FloatArray]:
         """The matrix that makes each family orthonormal, and the stiffness of all, (n, n) each."""
-        grid = self.blade.grid(2 * self.bending, 14)
-        soft = grid.weights[:, None, None] * self._flexibility(grid.points)
+        grid = self._energy_grid
+        soft = grid.weights[:, None, None] * self.flexibility(grid.points)
         forces = self._forces(grid.points)
-        own = np.zeros((self.size, self.size))
+        own = np.diag(np.repeat([0.0, 1.0], [sum(self.counts), self.families[-1]]))
         for rows, block in self._blocks:
             root = np.linalg.cholesky(soft[:, rows][:, :, rows])
             columns = np.swapaxes(root, 1, 2) @ forces[:, rows, block]
@@ -197,9 +234,9 @@ class StrainFunctions:
         bend, stretch, _ = self.blade.damping
         if not (bend or stretch):
             return np.zeros_like(self.stiffness)
-        grid = self.blade.grid(2 * self.bending, 14)
-        soft = self._flexibility(grid.points)
-        forces = self._forces(grid.points)[:, :3] @ self._own[0]
+        grid = self._energy_grid
+        soft = self.flexibility(grid.points)
+        forces = self.forces(grid.points)[:, :3]
         # Strains under forces where the section does not bend: what is left are the moments'.
         beside, bends = soft[:, :3, 3:], np.linalg.pinv(soft[:, 3:, 3:], hermitian=True)
         along = soft[:, :3, :3] - beside @ bends @ np.swapaxes(beside, 1, 2)
@@ -210,11 +247,15 @@ class StrainFunctions:
             bend * self.stiffness + np.einsum("pik,pil->kl", forces, apart @ forces, optimize=True)
         )
 
+    def forces(self, x: FloatArray) -> FloatArray:
+        """Return forces and moments of the functions at `x`, (places, 6, n)."""
+        return np.asarray(self._forces(x) @ self._own[0])
+
     def at(self, x: FloatArray) -> Strains:
         """Return the functions at material points `x`."""
-        soft = self._flexibility(x)
+        soft = self.flexibility(x)
         # In memory the places come last, as in all fields.
-        found = (soft @ (self._forces(x) @ self._own[0])).transpose(1, 2, 0).copy()
+        found = (soft @ self.forces(x)).transpose(1, 2, 0).copy()
         strains = np.swapaxes(found, 1, 2)
         return Strains(
             gamma=strains[:3],

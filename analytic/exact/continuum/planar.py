@@ -77,6 +77,7 @@ class Continuum(Kinematics):
     twists: ClassVar[bool] = False
     stiff: ClassVar[bool] = False
     uncoupled: ClassVar[bool] = True
+    answers: ClassVar[bool] = False  # nor do they make functions
     has_dear_tangent: ClassVar[bool] = False
     """Whether one costs many residuals, so that it serves in the steps of time after it."""
 
@@ -350,8 +351,9 @@ class Continuum(Kinematics):
         del component, mirror
         return self.odd
 
-    def refined(self) -> Continuum:
+    def refined(self, caused: FloatArray | None = None) -> Continuum:
         """Return the discretization with half as many functions again, the same each time."""
+        del caused
         panels = self.blade.panel_count
 
         def more(count: int) -> int:

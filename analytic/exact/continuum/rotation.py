@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar, Self
@@ -20,6 +20,7 @@ from ...methods.orbit import Orbit
 from ...methods.system import Tangent, reciprocal_modes
 from ...settled import refined
 from ...theory import Theory, require_theory
+from .answers import forces_caused
 from .basis import StrainFunctions
 from .planar import Continuum
 from .planar_rotation import on_more, require_shear, resolved_model
@@ -37,6 +38,8 @@ _LARGEST_KICK = 0.1
 _STEPS = 60  # of speed and load
 _CHANGES, _EXACT = 12, 1e-12  # of Newton's method, and the last over the size of the state
 _CONTRACTION = 0.25
+_NEAR = 1e-3  # change over the size of the state, from which on the tangent serves
+_MODES = 6  # whose answers a refinement adds
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 
 
@@ -259,15 +262,22 @@ class SteadyBlade:
         push = None if self.push is None else share * self.push
         turned = push is not None and push[2].any()
         sizes: list[float] = []
+        by = Driven(rate, push=push)
         for _ in range(_CHANGES):
-            tangent = self.model.tangent(q[None], still, still, Driven(rate, push=push))
-            if not _positive(tangent.stiffness[0], symmetric=not turned):
-                return None
-            change = np.linalg.solve(tangent.stiffness[0], tangent.residual[0])
+            near = self.model.has_dear_tangent and bool(sizes)
+            near = near and sizes[-1] <= _NEAR * float(np.linalg.norm(q))
+            if near:
+                residual = self.model.residual(q[None], still, still, by)[0]
+            else:
+                tangent = self.model.tangent(q[None], still, still, by)
+                residual = tangent.residual[0]
+                if not _positive(tangent.stiffness[0], symmetric=not turned):
+                    return None
+            change = np.linalg.solve(tangent.stiffness[0], residual)
             q = q - change
             sizes.append(float(np.linalg.norm(change)))
             if sizes[-1] <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
-                return q, tangent
+                return q, self.model.tangent(q[None], still, still, by) if near else tangent
             if len(sizes) == 2 and not sizes[1] <= _CONTRACTION * sizes[0]:
                 return None
         return None
@@ -291,12 +301,17 @@ class SteadyBlade:
         return np.asarray(self.model.tip_gradient(q)[:, self.component])
 
     def refined(self) -> Self:
-        """Return the blade on half as many functions again, the same each time."""
+        """Return the blade on more functions, the same each time."""
         return self._finer
 
     @cached_property
     def _finer(self) -> Self:
-        finer = replace(self, model=self.model.refined())
+        return self.resolving(_MODES)
+
+    def resolving(self, modes: int) -> Self:
+        """Return the blade on more functions, on a table with the answers of the lowest modes."""
+        caused = forces_caused(self, modes) if self.model.answers else None
+        finer = replace(self, model=self.model.refined(caused))
         return replace(finer, near=self.lifted(self.equilibrium, finer))
 
     @cached_property
@@ -309,6 +324,12 @@ class SteadyBlade:
         frequencies, shapes = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
         order = np.argsort(frequencies, kind="stable")
         return frequencies[order], shapes[:, order]
+
+    @cached_property
+    def shares(self) -> FloatArray:
+        """Shares of flap, lag, torsion and axial motion in the modes' kinetic energy."""
+        shares: FloatArray = self.model.shares(self.equilibrium, self.vibration[1].T)
+        return shares
 
     @property
     def blocks(self) -> list[NDArray[np.intp]]:
@@ -359,13 +380,15 @@ BladeOrbit = Orbit[SteadyBlade]
 """A free periodic orbit of a blade."""
 
 
-def finer_blades(first: SteadyBlade) -> Iterator[SteadyBlade]:
+def finer_blades(
+    first: SteadyBlade, finer: Callable[[SteadyBlade], SteadyBlade] = SteadyBlade.refined
+) -> Iterator[SteadyBlade]:
     """Yield a blade on more and more functions, up to the most that are taken, once at least.
 
     Many kinks or stations need more from the beginning: a panel lies between two of them.
     """
     most = max(first.model.most_functions, first.functions)
-    return refined(first, SteadyBlade.refined, lambda one: one.functions > most)
+    return refined(first, finer, lambda one: one.functions > most)
 
 
 def rotating_blade(

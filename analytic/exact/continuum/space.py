@@ -206,12 +206,29 @@ class SpaceContinuum:
         )
         return force, moment
 
+    def forces_caused(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
+    ) -> FloatArray:
+        """Return the forces on the strains of a table a motion causes, (points, 6, samples)."""
+        at = self._state(q)
+        motion = self._motion(at, q_dot, q_ddot, by)
+        inner = np.concatenate(self._on_strains(at, *self._forces(at, motion, by)[1:]))
+        return self.functions.elastic(self.points, np.moveaxis(inner / self.weights, 2, 0))
+
+    def _on_strains(
+        self, at: State, force: FloatArray, moment: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return force and moment in the frame without twist, and twist's share of the force."""
+        inner_force, inner_moment = turned_back(at.frame, force), turned_back(at.frame, moment)
+        twist = at.K[0] + self.strains.twist
+        inner_moment[0] -= self.strains.trapeze * twist * inner_force[0]
+        return inner_force, inner_moment
+
     def _work(
         self, at: State, q: FloatArray, q_dot: FloatArray, force: FloatArray, moment: FloatArray
     ) -> FloatArray:
         own = self.strains
-        inner_force, inner_moment = turned_back(at.frame, force), turned_back(at.frame, moment)
-        inner_moment[0] -= own.trapeze * (at.K[0] + own.twist) * inner_force[0]
+        inner_force, inner_moment = self._on_strains(at, force, moment)
         work = np.sum(inner_moment @ own.K + inner_force @ own.gamma, axis=0)
         held = q @ self.functions.stiffness + q_dot @ self.functions.damping
         return np.asarray(held - work)
@@ -232,7 +249,25 @@ class SpaceContinuum:
     @property
     def bending(self) -> int:
         """Number of functions for each curvature."""
-        return self.functions.counts[0] // 2
+        return self.functions.reach[0] * self.blade.panel_count
+
+    def needed(self, q: FloatArray, within: float) -> int:
+        """Return the functions for each curvature that states (samples, n) need.
+
+        By their last degrees the coordinates are to fall below the share `within` of the largest,
+        as they do from half of the degrees on.
+        """
+        bending, torsion = self.families[:2]
+        degrees = self.functions.bending
+        parts = np.split(np.abs(q).max(axis=0), (bending, bending + torsion))[: 1 + bool(torsion)]
+        sizes = np.max([part.reshape(degrees, -1).max(axis=1) for part in parts], axis=0)
+        sizes = np.maximum.accumulate(sizes[::-1])[::-1]
+        wanted, last = within * sizes[0], sizes[-2]
+        if last <= wanted:
+            return self.bending
+        fall = np.log(sizes[degrees // 2 - 1] / last) / (degrees - 1 - degrees // 2)
+        more = min(np.ceil(np.log(last / wanted) / fall) if fall else np.inf, degrees)
+        return int((degrees + more) * self.functions.blade.panel_count)
 
     def tip(self, q: FloatArray) -> FloatArray:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""
@@ -402,9 +437,14 @@ class SpaceContinuum:
         found: FloatArray = np.linalg.lstsq(self.strains.K[1], bending)[0]
         return found
 
-    def refined(self) -> SpaceContinuum:
-        """Return the discretization with half as many functions again, on every panel."""
-        return SpaceContinuum(self.functions.refined())
+    def refined(self, caused: FloatArray | None = None) -> SpaceContinuum:
+        """Return the discretization on more functions; of a table also of the forces `caused`."""
+        return SpaceContinuum(self.functions.refined(caused))
+
+    @property
+    def answers(self) -> bool:
+        """Whether answers make functions, as of tables."""
+        return self.blade.answers
 
     def kinetic_energy(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
         """Return the kinetic energy relative to the root frame, (samples,)."""

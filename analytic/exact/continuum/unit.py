@@ -13,7 +13,7 @@ from ...arrays import FloatArray, Profile, evaluated, in_units, profile_at
 from ...parts import STRAIGHT, Line, Offset, scaled
 from ...quadrature import Grid, Running
 from ...shape_functions import shape_functions
-from ...station_section import StationSection
+from ...station_section import StationSection, about_centers
 from ...theory import Theory
 from ...unit_blade import UnitBlade
 from .vectors import Frames, about_axis, turned
@@ -46,6 +46,11 @@ class SpaceUnit(UnitBlade):
         return 1e-9
 
     @property
+    def answers(self) -> bool:
+        """Whether forces have kinks, so that answers make functions."""
+        return False
+
+    @property
     def profiles(self) -> tuple[Profile, ...]:
         """Profiles along the blade."""
         line = self.line
@@ -75,6 +80,11 @@ class SpaceUnit(UnitBlade):
         onto = np.eye(6)
         onto[0, 5], onto[0, 4] = self.line.tension_offset[0], -self.line.tension_offset[1]
         return np.asarray(onto * soft[:, None] @ onto.T)
+
+    def elastic(self, x: FloatArray, theory: Theory) -> FloatArray:
+        """Return the part of forces that strains answer over all of them, (places, 6, 6): all."""
+        del theory
+        return np.tile(np.eye(6), (x.size, 1, 1))
 
     def inertia_about(self, x: FloatArray, slenderness: float) -> tuple[FloatArray, FloatArray]:
         """Return the centers of mass (3, places) from the line, and J about them (3, 3, places).
@@ -196,8 +206,17 @@ class StationUnit(SpaceUnit):
 
     @property
     def tolerance(self) -> float:
-        """As that of other blades; kinks of the centers of mass leave an algebraic tail."""
-        return 1e-7 if self.section.has_kinks_in_mass else 1e-9
+        """As that of other blades; tables have few digits."""
+        return 1e-6
+
+    @property
+    def answers(self) -> bool:
+        """True: centers and stiffness have kinks at the stations."""
+        return True
+
+    def stiffnesses(self, x: FloatArray) -> list[FloatArray]:
+        """Return all six about their centers at `x`."""
+        return list(about_centers(self.section.matrices(x)[0])[1].diagonal(axis1=1, axis2=2).T)
 
     @property
     def tail(self) -> float:
@@ -215,6 +234,17 @@ class StationUnit(SpaceUnit):
         """Return the inverse of the stiffness, (places, 6, 6); a theory leaves forces out."""
         del theory, slenderness
         return np.asarray(np.linalg.inv(self.section.matrices(x)[0]))
+
+    def elastic(self, x: FloatArray, theory: Theory) -> FloatArray:
+        """Return the part of forces that strains answer over all of them, (places, 6, 6).
+
+        At the centers of tension and shear those that the theory leaves out are reactions.
+        """
+        onto, _ = about_centers(self.section.matrices(x)[0])
+        sheared = theory.shear is not None
+        there = np.array([theory.extension, sheared, sheared, True, True, True])
+        back = 2.0 * np.eye(6) - onto
+        return np.asarray(np.swapaxes(onto, 1, 2) * there @ np.swapaxes(back, 1, 2))
 
     def inertia_about(self, x: FloatArray, slenderness: float) -> tuple[FloatArray, FloatArray]:
         """Return the centers of mass (3, places), and the inertia about them (3, 3, places)."""

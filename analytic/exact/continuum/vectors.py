@@ -148,7 +148,7 @@ def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
         u, v = of
         return np.stack((u * turn - v * back, u * bend - v * turn))
 
-    if np.abs(curvature).max(initial=0.0) * np.abs(onto).sum(axis=1).max() > _WOUND:
+    if (np.sqrt(np.sum(curvature**2, axis=0)) @ integral[..., -1:]).max(initial=0.0) > _WOUND:
         inside = np.swapaxes(integral[..., :count], 1, 2)[:, None]
         parts = [[turn, -back], [bend, -turn]]
         system = np.block([[-one[..., None, :] * inside for one in row] for row in parts])

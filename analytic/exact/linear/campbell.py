@@ -16,12 +16,13 @@ from scipy.interpolate import PchipInterpolator
 
 from ...arrays import FloatArray
 from ...blade import Blade
+from ...blade_checks import warn_if_rpm
 from ...input_checks import finite_values, require_ascending, rotation_speed, whole_number
 from ...plotting import apart, axes_or_new, cycled, free_place
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from .families import Family, LinearModes
-from .modes import linear_modes, modes_on
+from .modes import modes_from, modes_on
 
 if TYPE_CHECKING:
     from ...plotting import Axes
@@ -72,6 +73,8 @@ class Campbell:
     names : tuple of str
         The name of each column, "lag 1" say, by the shares of the mode at the lowest speed.
     theory : Theory
+    error : float
+        Largest relative change of the frequencies at both ends by the last refinement.
 
     Examples
     --------
@@ -89,7 +92,9 @@ class Campbell:
     crossings: tuple[Crossing, ...]
     names: tuple[str, ...]
     theory: Theory
+    error: float
     _only: Family | None = field(repr=False)
+    _tolerance: float | None = field(repr=False)
 
     @cached_property
     def _curves(self) -> tuple[FloatArray, FloatArray]:
@@ -99,7 +104,9 @@ class Campbell:
         speeds, frequencies = self.omegas, self.frequencies
         if apart_.any():
             speeds = np.sort(np.concatenate((speeds, even[apart_])))
-            more = _diagram(self.blade, speeds, len(self.names), 0, self._only, self.theory)
+            more = _diagram(
+                self.blade, speeds, len(self.names), 0, self._only, self.theory, self._tolerance
+            )
             frequencies = more.frequencies
         drawn = np.union1d(np.linspace(speeds[0], speeds[-1], _DRAWN), speeds)
         # Squares of frequencies are nearly straight over those of the speed.
@@ -162,6 +169,7 @@ def campbell(
     *,
     only: Family | None = None,
     theory: Theory = BERNOULLI_EULER,
+    tolerance: float | None = None,
 ) -> Campbell:
     """Return the Campbell diagram of the first `count` modes, tracked by their shapes.
 
@@ -178,6 +186,8 @@ def campbell(
         One family, as of `linear_modes`.
     theory : Theory
         Extension, shear, rotary inertia and trapeze effect.
+    tolerance : float, optional
+        As of `linear_modes`.
 
     Raises
     ------
@@ -199,7 +209,7 @@ def campbell(
         rotation_speed(float(speed), "omegas")
     require_ascending("omegas", speeds, "rad/s")
     count, orders = whole_number("count", count), whole_number("orders", orders)
-    return _diagram(blade, speeds, count, orders, only, theory)
+    return _diagram(blade, speeds, count, orders, only, theory, tolerance)
 
 
 def _diagram(
@@ -209,15 +219,19 @@ def _diagram(
     orders: int,
     only: Family | None,
     theory: Theory,
+    tolerance: float | None,
 ) -> Campbell:
     """Return the diagram of so many modes."""
     wanted = count + _SPARE_MODES
-    ends = [
-        linear_modes(blade, omega, wanted, only=only, theory=theory, functions=max(20, 2 * wanted))
-        for omega in {float(speeds[0]), float(speeds[-1])}
-    ]
+    ends: list[LinearModes] = []
+    warn_if_rpm(blade, float(speeds[-1]))
+    for omega in sorted({float(speeds[0]), float(speeds[-1])}):
+        near = ends[-1] if ends else None
+        ends.append(
+            modes_from(near, blade, omega, wanted, only, theory, max(20, 2 * wanted), tolerance)
+        )
     # A model that resolves the modes at both ends does so between them.
-    finest = max(ends, key=lambda modes: modes.model.bending)
+    finest = max(ends, key=lambda modes: modes.model.size)
 
     def modes_at(omega: float, near: LinearModes | None = None) -> LinearModes:
         return modes_on(finest.model, finest.blade, omega, wanted, theory, only, near=near)
@@ -246,7 +260,9 @@ def _diagram(
         crossings=tuple(sorted(crossings, key=lambda c: (names.index(c.mode), c.order))),
         names=names,
         theory=theory,
+        error=max(modes.error for modes in ends),
         _only=only,
+        _tolerance=tolerance,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
@@ -26,6 +27,11 @@ def mode_names(shares: FloatArray) -> tuple[str, ...]:
     """Return the names of modes in ascending order, "lag 1" say, by their shares (count, 4)."""
     kinds = [FAMILIES[k] for k in np.argmax(shares, axis=1).tolist()]
     return tuple(f"{kind} {kinds[: i + 1].count(kind)}" for i, kind in enumerate(kinds))
+
+
+def places_of(names: Sequence[str], count: int, only: Family | None) -> list[int]:
+    """Return the places of at most so many of the lowest modes, of all or of one family."""
+    return [k for k, name in enumerate(names) if only is None or name.startswith(only)][:count]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,8 +109,7 @@ class LinearModes:
 
     def lowest(self, count: int, only: Family | None = None) -> LinearModes:
         """Return the lowest modes, of all or of one family."""
-        names = self.names
-        of = [k for k, name in enumerate(names) if only is None or name.startswith(only)][:count]
+        names, of = self.names, places_of(self.names, count, only)
         if len(of) < count:
             raise ValueError(
                 f"count is {count}, and the blade has {len(of)} {only or ''} modes: flap and "
@@ -127,7 +132,7 @@ def modes_of(blade: Blade, omega: float, theory: Theory, steady: SteadyBlade) ->
         omega=omega,
         theory=theory,
         frequencies=frequencies * blade.frequency_scale,
-        shares=steady.model.shares(steady.equilibrium, shapes.T),
+        shares=steady.shares,
         error=math.nan,
         coordinates=shapes.T,
         steady=steady,

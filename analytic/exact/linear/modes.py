@@ -12,19 +12,20 @@ from ...blade import Blade
 from ...blade_checks import warn_if_rpm, with_torsion
 from ...input_checks import rotation_speed, shown, whole_number
 from ...methods.system import inverse_eigenvalues
-from ...settled import settled
+from ...settled import require_tolerance, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
 from ..continuum.planar import MOST_FUNCTIONS
 from ..continuum.rotation import (
     FUNCTIONS,
     Model,
+    SteadyBlade,
     continuum_of,
     finer_blades,
     leaves_plane,
     rotating_blade,
 )
-from .families import FAMILIES, Family, LinearModes, modes_of
+from .families import FAMILIES, Family, LinearModes, mode_names, modes_of, places_of
 
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
 
@@ -38,6 +39,7 @@ def linear_modes(
     only: Family | None = None,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 20,
+    tolerance: float | None = None,
 ) -> LinearModes:
     """Return the modes of the beam in steady rotation at `omega`, by name and ascending.
 
@@ -59,15 +61,19 @@ def linear_modes(
         Extension, shear, rotary inertia, trapeze effect.
     functions : int
         Least number of functions for the tangent's angle in the plane, at most 256; half as many
-        modes are resolved. They grow by half until half as many again change no frequency by 1e-9.
+        modes are resolved. They grow until more change no frequency by the tolerance.
+    tolerance : float, optional
+        Largest relative change of the frequencies by the last refinement; by default 1e-9, of a
+        blade from stations 1e-6. Short of it a warning comes with the answer, whose `error` tells
+        how far.
 
     Raises
     ------
     ValueError
         If the section out of the plane is needed and unknown; if `omega` is negative, not finite,
-        or tears the beam; if the functions do not resolve `count` modes. If 256 functions do not
-        settle the frequencies: beyond about w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp
-        becomes too thin, and within 1 % of the burst.
+        or tears the beam; if the functions do not resolve `count` modes, or 256 do not settle the
+        frequencies to 1e-3, as far beyond w̄ = ω/√(EI/mL³) = 5000, where the layer at the clamp
+        becomes too thin, or within 1 % of the burst.
 
     Examples
     --------
@@ -77,16 +83,32 @@ def linear_modes(
     lag 1 lag 2 lag 3 [ 3.7304  23.01006 56.64712]
     """
     omega = rotation_speed(omega)
+    warn_if_rpm(blade, omega)
+    return modes_from(None, blade, omega, count, only, theory, functions, tolerance)
+
+
+def modes_from(
+    near: LinearModes | None,
+    blade: Blade,
+    omega: float,
+    count: int,
+    only: Family | None,
+    theory: Theory,
+    functions: int,
+    tolerance: float | None,
+) -> LinearModes:
+    """Return `linear_modes`, of a table with the functions that modes at a speed nearby took."""
     count = whole_number("count", count)
     require_theory(theory)
-    warn_if_rpm(blade, omega)
     require_family(only)
     section = blade.section
     unknown = section.out_of_plane is None and not section.knows_space
     leaves = only not in ("lag", "axial") and not unknown
     if leaves:
         blade = _known_in_space(blade, only)
-    return _settled_modes(blade, omega, count, theory, functions, only, leaves=leaves)
+    return _settled_modes(
+        blade, omega, count, theory, functions, tolerance, only, leaves=leaves, near=near
+    )
 
 
 def driven_modes(
@@ -96,13 +118,14 @@ def driven_modes(
     *,
     theory: Theory = BERNOULLI_EULER,
     functions: int = 20,
+    tolerance: float | None = None,
 ) -> LinearModes:
     """Return the lowest modes that a drive in the plane of rotation excites.
 
     Those of the plane of bending of a planar blade, and all of others.
     """
     warn_if_rpm(blade, rotation_speed(omega))
-    return _settled_modes(blade, omega, count, theory, functions)
+    return _settled_modes(blade, omega, count, theory, functions, tolerance)
 
 
 def _settled_modes(
@@ -111,18 +134,30 @@ def _settled_modes(
     count: int,
     theory: Theory,
     functions: int,
+    tolerance: float | None,
     only: Family | None = None,
     *,
     leaves: bool = False,
+    near: LinearModes | None = None,
 ) -> LinearModes:
     # Rotation bends the blade in a layer at the clamp, √2/w̄ thin, which takes ~√w̄ functions.
     each = max(FUNCTIONS, 2 * count + 4)
     model = continuum_of(blade, theory, functions, each, mode=count, leaves=leaves)
+    if near is not None and model.answers:
+        model = near.model
     first = rotating_blade(blade, omega, model)
+
+    def finer(steady: SteadyBlade) -> SteadyBlade:
+        if only is None or not model.answers:
+            return steady.resolving(count)
+        return steady.resolving(
+            1 + max(places_of(mode_names(steady.shares), count, only), default=0)
+        )
+
     modes, _, error = settled(
         lambda steady: modes_of(blade, omega, theory, steady).lowest(count, only),
-        finer_blades(first),
-        model.tolerance,
+        finer_blades(first, finer),
+        require_tolerance(tolerance, model.tolerance),
         lambda modes: np.log(modes.frequencies),
         f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
         "ask for fewer modes, or rotate slower",
@@ -185,7 +220,12 @@ def modes_on(
 
 @one_thread
 def damping_ratios(
-    blade: Blade, omega: float, count: int = 3, *, theory: Theory = BERNOULLI_EULER
+    blade: Blade,
+    omega: float,
+    count: int = 3,
+    *,
+    theory: Theory = BERNOULLI_EULER,
+    tolerance: float | None = None,
 ) -> FloatArray:
     """Return the damping ratios ζ of the modes of `linear_modes`, (count,).
 
@@ -194,7 +234,7 @@ def damping_ratios(
 
     Parameters
     ----------
-    beam, omega, count, theory
+    beam, omega, count, theory, tolerance
         As for `linear_modes`.
 
     Raises
@@ -212,7 +252,9 @@ def damping_ratios(
     [0.00791 0.00831 0.02347]
     """
     omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
-    modes = linear_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
+    modes = linear_modes(
+        blade, omega, count, theory=theory, functions=max(20, 2 * count), tolerance=tolerance
+    )
     tangent = modes.steady.linearized
     ratios, sizes = np.empty(count), modes.frequencies / blade.frequency_scale
     for block in modes.steady.blocks:

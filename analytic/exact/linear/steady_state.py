@@ -11,7 +11,7 @@ from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm
 from ...input_checks import finite_array, finite_number, points_of_beam, rotation_speed
-from ...settled import settled
+from ...settled import require_tolerance, settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ..continuum.rotation import (
@@ -88,6 +88,7 @@ def steady_state(
     moment: ArrayLike = (0.0, 0.0, 0.0),
     gravity: float = 0.0,
     theory: Theory = BERNOULLI_EULER,
+    tolerance: float | None = None,
 ) -> SteadyState:
     """Return the steady state of a blade in rotation, under a load at its tip and its weight.
 
@@ -106,12 +107,15 @@ def steady_state(
         g [m/s²], where the axis of rotation points up, as ``Gravity(g, tilt=math.pi / 2)`` has it.
     theory : Theory
         Extension, shear, rotary inertia, trapeze effect.
+    tolerance : float, optional
+        Largest change of the tip's place over the length by the last refinement; by default 1e-9,
+        of a blade from stations 1e-6. Short of it a warning comes with the answer.
 
     Raises
     ------
     ValueError
         If the section out of the plane is not known, or the state ends or becomes unstable at a
-        lower speed or load, or is not reached in 60 steps.
+        lower speed or load, or is not reached in 60 steps, or the tip is not known to 1e-3.
 
     Examples
     --------
@@ -136,7 +140,7 @@ def steady_state(
     _, steady, error = settled(
         lambda one: one,
         finer_blades(first),
-        first.model.tolerance,
+        require_tolerance(tolerance, first.model.tolerance),
         lambda one: one.tip,
         f"the tip's place over the length at omega = {omega:g} rad/s",
         "rotate slower, or load it less",

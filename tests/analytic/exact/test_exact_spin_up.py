@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from analytic import SpinUp, SteadyRotation, spin_up_response
-from analytic.methods.collocation import radau
+from analytic import SpinUp, SteadyRotation, Theory, spin_up_response
+from analytic.methods.collocation import gauss, radau
+from analytic.methods.system import Tangent
 
 
 def test_reference_values(beam):
@@ -42,6 +43,57 @@ def test_order_of_the_collocation(fitted_order):
             y_dot += h * method.velocity[-1] @ a
         errors.append(np.hypot(y - np.cos(2.0), y_dot + np.sin(2.0)))
     assert fitted_order(1.0 / counts, errors) == pytest.approx(5.0, abs=0.2)
+
+
+@pytest.mark.parametrize("method", [radau(3), radau(8), gauss(5)])
+def test_one_tangent_at_all_nodes_is_solved_in_eigenvectors_as_the_whole_matrix_is(method):
+    random, h, s, n = np.random.default_rng(0), 0.3, method.nodes.size, 4
+    defect, *parts = random.standard_normal((4, n, n))
+    tangent = Tangent(defect[0], *parts[:2], parts[2] + 3.0 * np.eye(n))
+    whole = method.matrix(h, Tangent(np.zeros((s, n)), *(np.stack(s * [x]) for x in tangent[1:])))
+    wanted = random.standard_normal(s * n)
+    assert method.solver(h, tangent)(whole @ wanted) == pytest.approx(wanted, abs=1e-10)
+
+
+def test_the_order_does_not_depend_on_the_tangent(fitted_order):
+    """A pendulum by steps with the tangent of another place: Newton's root is the same."""
+    method, counts, ends = radau(3), np.array([8, 12, 16, 24]), []
+
+    def residual(q, q_dot, q_ddot):
+        return q_ddot + np.sin(q)
+
+    def tangent(*state):
+        one = np.ones((3, 1, 1))
+        return Tangent(residual(*state), np.cos(state[0])[..., None], 0.0 * one, one)
+
+    one = np.ones((1, 1))
+    near = Tangent(one[0], 0.5 * one, 0.0 * one, one)
+    for count in (*counts, 400):
+        q, q_dot, a = np.ones(1), np.zeros(1), np.zeros((3, 1))
+        for _ in range(count):
+            h = 2.0 / count
+            a = method.step(h, q, q_dot, a, residual=residual, tangent=tangent, near=near).z
+            q, q_dot = (part[-1] for part in method.stages(h, q, q_dot, a)[:2])
+        ends.append(np.concatenate((q, q_dot)))
+    errors = np.linalg.norm(np.array(ends[:-1]) - ends[-1], axis=1)
+    assert fitted_order(1.0 / counts, errors) == pytest.approx(5.0, abs=0.3)
+
+
+@pytest.mark.slow
+def test_in_space_the_error_told_is_not_smaller_than_the_true_one(beam):
+    """A soft twisted blade whose tip lags by a third of its length; against a finer solution."""
+    blade = beam.with_section_out_of_plane(0.25, 0.2).with_twist(0.6)
+    spin_up, times = SpinUp(omega=2.0, ramp_time=2.0), np.linspace(0.0, 3.0, 31)
+    theory = Theory(extension=False, trapeze=False)
+    *several, true = (
+        spin_up_response(blade, spin_up, times, tolerance=tolerance, theory=theory)
+        for tolerance in (1e-2, 1e-3, 1e-4, 1e-6)
+    )
+    size = np.abs(true.tip[:, 1:]).max()
+    assert size > 0.1 * blade.length
+    for found, tolerance in zip(several, (1e-2, 1e-3, 1e-4), strict=True):
+        assert np.abs(found.tip - true.tip).max() / size < found.error < tolerance
+        assert np.abs(found.twist - true.twist).max() * blade.length / size < found.error
 
 
 def test_velocity_and_tip_belong_to_the_deflection(beam):

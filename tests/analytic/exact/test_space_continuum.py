@@ -97,7 +97,7 @@ def test_loads_of_the_sections_are_those_of_their_strains():
     functions, at = model.functions, model.functions.at(x)
     strains = np.concatenate((at.gamma @ q[0], at.K @ q[0]))
     turned = functions.blade.section_frames(x)
-    law = np.linalg.solve(functions._flexibility(x), strains.T[..., None])[..., 0]
+    law = np.linalg.solve(functions.flexibility(x), strains.T[..., None])[..., 0]
     law = np.einsum("jip,pkj->pki", turned, law.reshape(-1, 2, 3)).reshape(-1, 6)
     # The law's are projected on functions, those by d'Alembert are not.
     np.testing.assert_allclose(found, law, atol=1e-6 * np.abs(law).max())

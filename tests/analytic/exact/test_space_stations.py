@@ -142,7 +142,7 @@ def test_stiffness_is_the_identity_but_where_the_section_couples():
         assert (np.abs(K - np.eye(model.size)).max() < 1e-12) == identity
         assert np.linalg.eigvalsh(K)[0] > 0.0
         E = np.concatenate((own.gamma, own.K))
-        turned = model.functions._flexibility(model.points)
+        turned = model.functions.flexibility(model.points)
         energy = np.einsum("ipk,p,pij,jpl->kl", E, model.weights, np.linalg.inv(turned), E)
         assert energy == pytest.approx(K, abs=1e-9)
 

@@ -1,0 +1,101 @@
+"""Tables of stations as irregular as real ones: always an answer, and no error larger than told."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from analytic import Blade, RotbeamWarning, Theory, linear_modes, steady_state
+from analytic.exact.continuum.unit import StationUnit
+
+SIGMAS = (0.001, 0.005, 0.03)  # of the centers, over the length
+CASES = (
+    (0.001, Theory()),
+    (0.005, Theory(shear=True, trapeze=False)),
+    (0.03, Theory()),
+    (0.03, Theory(extension=False)),
+)
+
+
+def table(seed, sigma, count=None):
+    """A blade with twist, a cone, steps at its root, and centers that jump at each station."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(4, 30)) if count is None else count
+    x = np.concatenate(([0.0], np.sort(rng.uniform(0.0, 1.0, count - 2)), [1.0]))
+    steps = np.where(x > rng.uniform(0.05, 0.3), 1.0, rng.uniform(1.0, 3.0, count))
+    taper, axial = steps * (1.0 - 0.7 * x), 4e3 * steps * (1.0 - 0.5 * x)
+    stiffness = np.stack([axial, axial, axial, 0.08 * taper, 0.0625 * taper, taper], axis=1)
+    mass = np.outer(np.ones(count), [1.0, 3e-3, 2e-3, 1e-3])
+    mass[:, 0] -= 0.5 * x
+    centers = {
+        name: sigma * rng.standard_normal((count, 2)) for name in ("center", "tension", "shear")
+    }
+    blade = Blade.from_stations(x, stiffness, mass, twist=0.6 * rng.random(count), **centers)
+    return blade.with_precone(0.05)
+
+
+@pytest.fixture
+def by_panels(monkeypatch):
+    """Return what makes panels between all stations, with polynomials and nothing else."""
+
+    def change():
+        monkeypatch.setattr(StationUnit, "panels", property(lambda unit: np.array(unit.section.x)))
+        monkeypatch.setattr(StationUnit, "answers", property(lambda unit: False))
+
+    return change
+
+
+@pytest.mark.parametrize(("sigma", "theory"), CASES)
+def test_errors_are_not_larger_than_told(sigma, theory, by_panels):
+    """Polynomials on panels between stations need no answers: all kinks are at their ends."""
+    blade = table(3, sigma, 6)
+    modes = linear_modes(blade, 4.0, 6, theory=theory)
+    state = steady_state(blade, 4.0, force=(0.0, 0.02, 0.05), theory=theory)
+    assert max(modes.error, state.error) < 1e-6
+    by_panels()
+    known = linear_modes(blade, 4.0, 6, theory=theory, tolerance=1e-8)
+    assert known.model.blade.panel_count == 5
+    assert np.abs(modes.frequencies / known.frequencies - 1.0).max() < modes.error + known.error
+    there = steady_state(blade, 4.0, force=(0.0, 0.02, 0.05), theory=theory, tolerance=1e-8)
+    assert np.abs(state.tip - there.tip).max() < state.error + there.error
+
+
+def test_fifty_stations_with_steps_of_three():
+    """As an owner of a real blade has them."""
+    modes = linear_modes(table(7, 0.03, 50), 4.0, 6)
+    assert modes.error < 1e-6
+    assert modes.model.size < 250
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("theory", [Theory(), Theory(trapeze=False)], ids=str)
+@pytest.mark.parametrize("sigma", SIGMAS)
+def test_forty_tables_are_answered(sigma, theory):
+    for seed in range(40):
+        blade = table(seed, sigma)
+        modes = linear_modes(blade, 4.0, 6, theory=theory)
+        assert modes.error < 1e-6
+        finer = linear_modes(blade, 4.0, 6, theory=theory, tolerance=1e-9)
+        assert np.abs(modes.frequencies / finer.frequencies - 1.0).max() < modes.error + 1e-9
+
+
+def test_short_of_its_tolerance_an_answer_comes_with_a_warning(monkeypatch):
+    """And one that is not known to 1e-3 is refused."""
+    monkeypatch.setattr("analytic.exact.continuum.rotation.MOST_FUNCTIONS", 25)
+    blade = table(3, 0.03, 12)
+    with pytest.warns(RotbeamWarning, match="more than the tolerance of 1e-10"):
+        modes = linear_modes(blade, 4.0, 6, tolerance=1e-10)
+    assert 1e-10 < modes.error < 1e-3
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RotbeamWarning)
+        assert linear_modes(blade, 4.0, 6, tolerance=10.0 * modes.error).error <= modes.error
+    monkeypatch.setattr("analytic.exact.continuum.rotation.MOST_FUNCTIONS", 20)
+    with pytest.raises(ValueError, match=r"differ by .*; ask for fewer modes, or rotate slower"):
+        linear_modes(blade, 4.0, 6)
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1e-6, 1e-13, 0.01, np.nan, np.inf, "1e-6", True])
+def test_tolerances_out_of_reach_are_refused(tolerance):
+    for verb in (linear_modes, steady_state):
+        with pytest.raises((ValueError, TypeError), match="tolerance"):
+            verb(table(3, 0.001, 4), 4.0, tolerance=tolerance)
