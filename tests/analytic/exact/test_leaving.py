@@ -11,6 +11,7 @@ from analytic import Beam, Rectangle, Theory, backbone, periodic_orbits
 from analytic.exact.free.planar_orbits import planar_orbits
 from analytic.methods.collocation import radau
 from analytic.methods.newton import Newton
+from analytic.methods.system import Tangent
 from analytic.threads import one_thread
 
 UNIT = Beam.from_stiffness(
@@ -48,14 +49,16 @@ def after_ten_periods(orbit, steps):
     method, system, h = radau(8), orbit.system, 20.0 * np.pi / orbit.frequency / steps
     q, q_dot, start = (part[0] for part in orbit.coordinates(np.zeros(1)))
     found = np.broadcast_to(start, (8, q.size))
-    factors = None
+    near = None
     for _ in range(steps):
         step = partial(
             method.step, h, q, q_dot, np.broadcast_to(found[-1], found.shape), newton=STEP,
             residual=system.residual, tangent=system.tangent,
         )  # fmt: skip
-        root = step(factors=factors) or step()
-        found, factors = root.z, root.factors
+        root = step(near=near) or step()
+        found, used = root.z, root.factors[1]
+        if used is not near:
+            near = Tangent(*(part.mean(axis=0) for part in used))
         q, q_dot = (part[-1] for part in method.stages(h, q, q_dot, found)[:2])
     return system.model.tip(q[None])[0]
 
