@@ -99,8 +99,8 @@ class Blade(Described):
                 )
         self.section.require_along(self.length)
         self.line.require_along(self.length)
-        told = (*self.line.mass_offset, *self.line.tension_offset)
-        if self.section.at_stations and any(told):
+        offsets = (*self.line.mass_offset, *self.line.tension_offset)
+        if self.section.at_stations and any(offsets):
             raise ValueError(
                 "the stations tell where the centers are: leave with_offsets out, or give "
                 "from_stations the offsets tension, shear and center"
@@ -108,7 +108,7 @@ class Blade(Described):
         self._require_masses()
 
     def _require_masses(self) -> None:
-        own = self.mass - sum(one.mass for one in self.point_masses)
+        m = self.mass - sum(one.mass for one in self.point_masses)
         for one in self.point_masses:
             require_offset("the offset of a point mass", one.offset, self.length)
             if one.position > self.length * (1.0 + 1e-12):
@@ -116,10 +116,10 @@ class Blade(Described):
                     f"a point mass at {one.position:g} m is beyond the tip at {self.length:g} m: "
                     "take a position from the clamp, not from the axis"
                 )
-            if one.mass > _HEAVY * own:
+            if one.mass > _HEAVY * m:
                 raise ValueError(
-                    f"a point mass of {one.mass:g} kg is {one.mass / own:.3g} times the blade's "
-                    f"{own:.4g} kg: give it in kg, or clamp the blade there"
+                    f"a point mass of {one.mass:g} kg is {one.mass / m:.3g} times the blade's "
+                    f"{m:.4g} kg: give it in kg, or clamp the blade there"
                 )
 
     @classmethod

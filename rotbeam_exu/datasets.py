@@ -212,13 +212,13 @@ def _root_loads(response: SpinUpResponse) -> dict[str, tuple[FloatArray, str]]:
 
     By the clamp's axes, as of a run, not by those of its section, which may be set.
     """
-    found = response.section_loads([0.0])
-    kinds = ("force", "N", _FORCES, found.force), ("moment", "N m", _MOMENTS, found.moment)
+    root = response.section_loads([0.0])
+    kinds = ("force", "N", _FORCES, root.force), ("moment", "N m", _MOMENTS, root.moment)
     return {
         f"root_{kind}_{axis}": (column, f"{names[axis]} at the root [{unit}]")
         for kind, unit, names, loads in kinds
         for axis, column in zip(
-            "xyz", np.einsum("tij,tj->it", found.section[:, 0], loads[:, 0]), strict=True
+            "xyz", np.einsum("tij,tj->it", root.section[:, 0], loads[:, 0]), strict=True
         )
     }
 
@@ -277,8 +277,8 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
     inputs = response_inputs(
         response.blade, response.load, None if weight else float(response.omega[0])
     )
-    known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
-    return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **known})
+    quality = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
+    return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **quality})
 
 
 def response_inputs(blade: Blade, load: Load, omega: float | None) -> dict[str, object]:

@@ -29,8 +29,10 @@ def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt as interrupt:
-        told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
-        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
+        earlier = (
+            [str(interrupt)] if interrupt.args else []
+        )  # by a part of the work inside this one
+        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *earlier]))) from None
 
 
 @Parameter(name="*")

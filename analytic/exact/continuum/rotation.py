@@ -221,19 +221,19 @@ class SteadyBlade:
 
     @cached_property
     def _steady(self) -> tuple[FloatArray, Tangent]:
-        found = None if self.near is None else self._newton(self.near, 1.0)
-        if found is not None:
-            return found
+        state = None if self.near is None else self._newton(self.near, 1.0)
+        if state is not None:
+            return state
         # A straight blade stays straight, and nothing is to be followed.
         still = self.push is None and (self.rate == 0.0 or self.model.uncoupled)
         q, reached, step = np.zeros(self.size), float(still), 1.0
         for _ in range(_STEPS):
             share = min(reached + step, 1.0)
-            found = self._newton(q, share)
-            if found is not None:
+            state = self._newton(q, share)
+            if state is not None:
                 if share == 1.0:
-                    return found
-                q, reached, step = found[0], share, 2.0 * step
+                    return state
+                q, reached, step = state[0], share, 2.0 * step
             else:
                 step = 0.5 * (share - reached)
                 if step <= _SHORTEST * reached:
@@ -352,11 +352,11 @@ class SteadyBlade:
             odd = self.odd[moving]
             coupling = np.where(np.outer(odd, ~odd), skew, 0.0)
             coupling, turn = coupling + coupling.T, np.where(odd, 1.0, 1.0j)
-        inverse, found = reciprocal_modes(0.5 * (K + K.T), coupling, 0.5 * (M + M.T))
+        inverse, modes = reciprocal_modes(0.5 * (K + K.T), coupling, 0.5 * (M + M.T))
         # Some motion has no inertia; the inextensible beam has no axial modes.
         kept = inverse > _MASSLESS
         shapes = np.zeros((self.size, np.count_nonzero(kept)), dtype=np.complex128)
-        shapes[moving] = turn[:, None] * found[:, kept]
+        shapes[moving] = turn[:, None] * modes[:, kept]
         return 1.0 / inverse[kept], shapes
 
     @cached_property

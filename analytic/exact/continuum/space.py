@@ -74,20 +74,20 @@ class SpaceContinuum:
 
     def _strains(self, q: FloatArray, at: Any = None) -> tuple[FloatArray, FloatArray]:
         """Return Γ and K, (3, samples, points)."""
-        own = at or self.strains
-        K = own.initial[:, None] + q @ own.K.swapaxes(1, 2)
-        gamma = q @ own.gamma.swapaxes(1, 2)
-        gamma[0] += 1.0 - 0.5 * own.trapeze * (K[0] ** 2 + 2.0 * own.twist * K[0])
+        strains = at or self.strains
+        K = strains.initial[:, None] + q @ strains.K.swapaxes(1, 2)
+        gamma = q @ strains.gamma.swapaxes(1, 2)
+        gamma[0] += 1.0 - 0.5 * strains.trapeze * (K[0] ** 2 + 2.0 * strains.twist * K[0])
         return gamma, K
 
     def _rates(
         self, K: FloatArray, q_dot: FloatArray, at: Any = None
     ) -> tuple[FloatArray, FloatArray]:
         """Return Γ̇ and K̇ of coordinates that change by q̇; of any small change of q as well."""
-        own = at or self.strains
-        change = q_dot @ own.K.swapaxes(1, 2)
-        gamma = q_dot @ own.gamma.swapaxes(1, 2)
-        gamma[0] -= own.trapeze * (K[0] + own.twist) * change[0]
+        strains = at or self.strains
+        change = q_dot @ strains.K.swapaxes(1, 2)
+        gamma = q_dot @ strains.gamma.swapaxes(1, 2)
+        gamma[0] -= strains.trapeze * (K[0] + strains.twist) * change[0]
         return gamma, change
 
     def _state(self, q: FloatArray) -> State:
@@ -227,9 +227,9 @@ class SpaceContinuum:
     def _work(
         self, at: State, q: FloatArray, q_dot: FloatArray, force: FloatArray, moment: FloatArray
     ) -> FloatArray:
-        own = self.strains
+        strains = self.strains
         inner_force, inner_moment = self._on_strains(at, force, moment)
-        work = np.sum(inner_moment @ own.K + inner_force @ own.gamma, axis=0)
+        work = np.sum(inner_moment @ strains.K + inner_force @ strains.gamma, axis=0)
         held = q @ self.functions.stiffness + q_dot @ self.functions.damping
         return np.asarray(held - work)
 
@@ -262,11 +262,11 @@ class SpaceContinuum:
         parts = np.split(np.abs(q).max(axis=0), (bending, bending + torsion))[: 1 + bool(torsion)]
         sizes = np.max([part.reshape(degrees, -1).max(axis=1) for part in parts], axis=0)
         sizes = np.maximum.accumulate(sizes[::-1])[::-1]
-        wanted, last = within * sizes[0], sizes[-2]
-        if last <= wanted:
+        least, last = within * sizes[0], sizes[-2]
+        if last <= least:
             return self.bending
         fall = np.log(sizes[degrees // 2 - 1] / last) / (degrees - 1 - degrees // 2)
-        more = min(np.ceil(np.log(last / wanted) / fall) if fall else np.inf, degrees)
+        more = min(np.ceil(np.log(last / least) / fall) if fall else np.inf, degrees)
         return int((degrees + more) * self.functions.blade.panel_count)
 
     def tip(self, q: FloatArray) -> FloatArray:
@@ -321,12 +321,12 @@ class SpaceContinuum:
         self, q: FloatArray, q_dot: FloatArray, x: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return the derivatives of places to `x`, (samples, points, 3), and their rates."""
-        own, frame, K = self.functions.at(x), self._frame_at(q, x), self._strains(q)[1]
-        gamma, bend = self._strains(q, own)
+        strains, frame, K = self.functions.at(x), self._frame_at(q, x), self._strains(q)[1]
+        gamma, bend = self._strains(q, strains)
         turning = turned(self._state(q).frame, self._rates(K, q_dot)[1])
         spin = turning @ self.functions.grid.integral(x).T
         slope = turned(frame, gamma)
-        rate = cross(spin, slope) + turned(frame, self._rates(bend, q_dot, own)[0])
+        rate = cross(spin, slope) + turned(frame, self._rates(bend, q_dot, strains)[0])
         return np.moveaxis(slope, 0, -1), np.moveaxis(rate, 0, -1)
 
     def tip_gradient(self, q: FloatArray) -> FloatArray:
@@ -434,8 +434,8 @@ class SpaceContinuum:
     def struck(self, speed: float) -> FloatArray:
         """Return the rates (n,) of a straight blade that flaps as `kicked_state` has it."""
         bending = -speed * flap_of_kick(self.points, 2)
-        found: FloatArray = np.linalg.lstsq(self.strains.K[1], bending)[0]
-        return found
+        rates: FloatArray = np.linalg.lstsq(self.strains.K[1], bending)[0]
+        return rates
 
     def refined(self, caused: FloatArray | None = None) -> SpaceContinuum:
         """Return the discretization on more functions; of a table also of the forces `caused`."""
