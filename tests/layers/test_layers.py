@@ -20,6 +20,7 @@ FLOORS = {
         {"motion", "settled", "theory"},
         {"parts", "section", "unit_blade", "loads", "ramps"},
         {"shape_functions", "section_shape", "station_section"},
+        {"blade_data"},
         {"blade", "meshed_section", "section_shapes"},
         {"beam", "blade_checks"},
         {"reduced", "exact"},  # neither knows the other
