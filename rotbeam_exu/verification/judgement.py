@@ -176,9 +176,9 @@ def judged(
     >>> from rotbeam_exu.verification.cases import CASES
     >>> from rotbeam_exu.verification.entries import formulation_entry
     >>> from rotbeam_exu.verification.judgement import judged
-    >>> from rotbeam_exu.verification.verify import handed_in
+    >>> from rotbeam_exu.verification.verify import submission_of
     >>> linear = {"L": CASES["L"]}
-    >>> found = judged(handed_in(formulation_entry(Cable()), linear.values()), cases=linear)
+    >>> found = judged(submission_of(formulation_entry(Cable()), linear.values()), cases=linear)
     >>> print(found.outcome, found.passed)
     1 of 1 agrees True
     """

@@ -159,10 +159,10 @@ def verify(
         faster = blade.omega_0 / Beam.reference().omega_0
         speeds = tuple(speed * faster for speed in SPEEDS)
         cases = [frequency_case(blade, speeds), spin_up_case(blade, motion, duration)]
-    return judged(handed_in(entry, cases), cases={case.name: case for case in cases})
+    return judged(submission_of(entry, cases), cases={case.name: case for case in cases})
 
 
-def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
+def submission_of(entry: Entry, cases: Sequence[Case]) -> Submission:
     """Run a code over the cases that it does, and return its submission.
 
     Frequencies and steady tips on its own meshes; histories on these meshes at twice its step, and

@@ -11,7 +11,7 @@ from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order, converged
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Finding, Outcome, _rounded, finding_of, worst_of
-from rotbeam_exu.verification.verify import Entry, handed_in
+from rotbeam_exu.verification.verify import Entry, submission_of
 
 
 def known(limit, bar, *, finest=0.5, growths=0, steps=(0.0, 0.0)):
@@ -158,7 +158,7 @@ def test_a_code_is_run_on_three_meshes_and_with_three_steps():
         own = {"verdict": "passed" if step < 2e-3 else "drifts"}
         return xr.Dataset({"q": ("time", 0.0 * time)}, {"time": time}, own)
 
-    runs = handed_in(Entry(name="mine", simulate=code, elements=16), [CASES["S1"]]).runs
+    runs = submission_of(Entry(name="mine", simulate=code, elements=16), [CASES["S1"]]).runs
     assert [(run.elements, run.step) for run in runs] == [
         (8, 2e-3), (16, 1e-3), (16, 2e-3), (16, 4e-3), (32, 2e-3)
     ]  # fmt: skip
@@ -182,7 +182,7 @@ def test_a_refusal_of_frequencies_or_of_a_tip_is_told_and_what_is_not_done_is_le
         name="mine", simulate=None, in_space=isinstance(case, SpaceCase), frequencies=refusing,
         steady_tip=refusing,
     )  # fmt: skip
-    submission = handed_in(entry, [case])
+    submission = submission_of(entry, [case])
     assert {row.speed for row in submission.rows} == set(case.speeds[1:])
     assert {row.failure for row in submission.rows} == {
         f"no license at {w:g}" for w in case.speeds[1:]

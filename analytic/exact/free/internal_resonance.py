@@ -174,7 +174,7 @@ def nearest_resonance(of: ModePath, orbits: Sequence[BladeOrbit]) -> str:
     )
 
 
-def outstanding(of: ModePath, orbit: BladeOrbit) -> list[int]:
+def prominent_harmonics(of: ModePath, orbit: BladeOrbit) -> list[int]:
     """Return the harmonics larger than the one before that may be near another mode."""
     others, sizes = of.modes[_others(of)], orbit.sizes
     return [
@@ -188,7 +188,7 @@ def outstanding(of: ModePath, orbit: BladeOrbit) -> list[int]:
 def warn_of_resonances(of: ModePath, orbits: Iterable[BladeOrbit]) -> None:
     """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
     others = _others(of)
-    suspects = [(orbit, ks) for orbit in orbits if (ks := outstanding(of, orbit))]
+    suspects = [(orbit, ks) for orbit in orbits if (ks := prominent_harmonics(of, orbit))]
     # Multipliers cost more than an orbit does: of very many a few are looked at.
     looked = np.unique(np.linspace(0, len(suspects) - 1, _LOOKS).round().astype(int))
     warned: set[tuple[int, str]] = set()

@@ -17,7 +17,7 @@ from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
 from ..continuum.rotation import BladeOrbit
 from .branch import OrbitSet
-from .internal_resonance import FOLLOWED, nearest_resonance, outstanding, warn_of_resonances
+from .internal_resonance import FOLLOWED, nearest_resonance, prominent_harmonics, warn_of_resonances
 from .path import AmplitudeNotReachedError, ModePath
 
 if TYPE_CHECKING:
@@ -167,7 +167,7 @@ def _confirmed(of: ModePath, orbits: dict[float, BladeOrbit]) -> dict[float, Bla
     """
     suspects = list(orbits)
     for _ in range(_RELAID):
-        suspects = [a for a in suspects if outstanding(of, orbits[a])]
+        suspects = [a for a in suspects if prominent_harmonics(of, orbits[a])]
         if not suspects:
             break
         of = replace(of, model=of.path.seed.system.refined().model)

@@ -161,7 +161,7 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     Parameters
     ----------
     submission : Submission
-        From files, or of a code that was called, as `handed_in` returns it.
+        From files, or of a code that was called, as `submission_of` returns it.
     folder : path
         New, or without a submission.
 

@@ -1,7 +1,7 @@
 """Files of a submission, and their faults: all at once, each with its place and a remedy.
 
-Who judges the folders of strangers has files of his own, to which links lead, and memory, which a
-pipe or a device fills. All files are read here: regular ones below the folder, up to a limit.
+A judge must not follow links out of a stranger's folder, or read pipes and devices. So all files
+are read here: regular ones below the folder, up to a limit.
 """
 
 from __future__ import annotations
