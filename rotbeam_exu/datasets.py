@@ -155,7 +155,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
         "angle": (motion.angle(response.time), "rotation angle θ [rad]"),
         **_root_loads(response),
     }
-    found = dataset(
+    data = dataset(
         {name: ("time", *column) for name, column in columns.items()},
         {"time": (response.time, "time t [s]")},
         {
@@ -170,7 +170,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
         },
     )
     along = response.points
-    return found.merge(shape_of(response.section_loads(along))) if along.size else found
+    return data.merge(shape_of(response.section_loads(along))) if along.size else data
 
 
 @_described.register
@@ -228,17 +228,17 @@ def _(response: ForcedResponse) -> xr.Dataset:
     """Return `_curve`, the directions of `stable`, and where known what grows out of the plane."""
     data = _curve(response)
     data = data.assign_attrs(stable_covers=response.covers)
-    if (found := response._growth) is None:
+    if (grown := response._growth) is None:
         section = response.blade.section
         unknown = section.out_of_plane is None and not section.knows_space
         if response._beyond is None or unknown:
             return data
         return data.assign_attrs(planar=f"Stability is about {response.covers}")
     growth: dict[str, tuple[str, ArrayLike, str]] = {
-        "growth_rate": ("point", found.growth_rate, GROWTH),
-        "kind": ("point", list(found.kind), "how it grows"),
+        "growth_rate": ("point", grown.growth_rate, GROWTH),
+        "kind": ("point", list(grown.kind), "how it grows"),
     }
-    return data.merge(dataset(growth, {})).assign_attrs(planar=str(found))
+    return data.merge(dataset(growth, {})).assign_attrs(planar=str(grown))
 
 
 def _curve(response: ForcedResponse) -> xr.Dataset:

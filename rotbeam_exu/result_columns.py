@@ -93,9 +93,9 @@ _ORBITS = _columns(
 ) | {"sine": _named("harmonics", ("orbit", "harmonic"), "q/L over sin kφ")}
 _OF_ORBITS = ("omega", "mode", "omega_n", "lambda_omega", "lambda_omega_error")
 _POINTS = _columns("point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]") | {
-    "mark": ("point", "what is special about the point", lambda found: [*found.marks])
+    "mark": ("point", "what is special about the point", lambda result: [*result.marks])
 }
-_NAMES: Column = ("mode", "mode", lambda found: [*found.names])
+_NAMES: Column = ("mode", "mode", lambda result: [*result.names])
 _FREQUENCY = {"frequency": _named("frequencies", "mode", "natural frequency [rad/s]")}
 
 COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
@@ -145,13 +145,13 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
         {
             "a": _named("amplitude", "a", ORBIT),
             "growth_rate": _named("growth_rate", "a", GROWTH),
-            "kind": ("a", "how it grows", lambda found: list(found.kind)),
-            "modes": ("a", "what grows", lambda found: list(map(" and ".join, found.modes))),
+            "kind": ("a", "how it grows", lambda result: list(result.kind)),
+            "modes": ("a", "what grows", lambda result: list(map(" and ".join, result.modes))),
             "converged": _named("converged", "a", "converged"),
             "frequency": _named("frequency", "a", "frequency of the planar orbit [rad/s]"),
             "multipliers": (
                 ("a", "multiplier", "part"), "Floquet multiplier out of the plane",
-                lambda found: np.stack((found.multipliers.real, found.multipliers.imag), axis=-1),
+                lambda one: np.stack((one.multipliers.real, one.multipliers.imag), axis=-1),
             ),
         },
         ("omega", "mode"),

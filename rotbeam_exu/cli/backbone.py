@@ -147,7 +147,7 @@ def _frequencies(
 ) -> dict[str, list[Any]]:
     """Return the columns of the models, and add to `refused` why some have no number."""
 
-    def found(frequency: Callable[[Any], Any], a: float, name: str) -> float:
+    def number(frequency: Callable[[Any], Any], a: float, name: str) -> float:
         try:
             return float(frequency(a))
         except ValueError as error:
@@ -158,7 +158,7 @@ def _frequencies(
     for model in models:
         name = model.variant.name
         for a in amplitude:
-            both = [found(one, a, name) for one in (model.frequency, model.exact_frequency)]
+            both = [number(one, a, name) for one in (model.frequency, model.exact_frequency)]
             rows.append((name, a, *both, both[0] / model.omega_n))
     titles = "variant", "amplitude a/L", "Eq. 63 [rad/s]", "Eq. 41 exactly [rad/s]", "Eq. 63 / ω_n"
     columns = map(list, zip(*rows, strict=True))

@@ -82,7 +82,7 @@ def stability(
 
     results.job(
         f"stability-{request.section}-omega-{omega:g}-{mode.replace(' ', '-')}", inputs, computed,
-        lambda found, _: _print(*found[:2]),
+        lambda results, _: _print(*results[:2]),
         table=lambda data: parts(data)["growth_rate"],
         draw=lambda figures, data: figures.planar_stability(data),
     )  # fmt: skip

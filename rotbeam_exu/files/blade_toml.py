@@ -62,7 +62,7 @@ def _plain(part: Any) -> Any:
 
 def _lines(table: Mapping[str, Any], title: tuple[str, ...]) -> list[str]:
     """Return a table's values, then the tables within it."""
-    lines = [f"{k} = {_told(v)}" for k, v in table.items() if not isinstance(v, (dict, list))]
+    lines = [f"{k} = {_written(v)}" for k, v in table.items() if not isinstance(v, (dict, list))]
     for key, part in table.items():
         name = ".".join((*title, key))
         for one in part if isinstance(part, list) else [part] * isinstance(part, dict):
@@ -71,11 +71,11 @@ def _lines(table: Mapping[str, Any], title: tuple[str, ...]) -> list[str]:
     return lines
 
 
-def _told(value: Any) -> str:
+def _written(value: Any) -> str:
     """Return a number, a text or nested numbers as TOML has them, a row of numbers a line."""
     if not isinstance(value, tuple):
         return str(value).lower() if isinstance(value, bool) else repr(value).replace("'", '"')
-    text = ", ".join(map(_told, value))
+    text = ", ".join(map(_written, value))
     if value and isinstance(value[0], tuple):
-        return "[\n" + "".join(f"{_told(one)},\n" for one in value) + "]"
+        return "[\n" + "".join(f"{_written(one)},\n" for one in value) + "]"
     return fill(f"[{text}]", 100, break_long_words=False, break_on_hyphens=False)

@@ -126,7 +126,7 @@ def _factors(header: Iterable[str], path: Path) -> dict[str, float]:
     """Return the names of columns and their units in SI."""
     titles = [(_TITLE.fullmatch(title), title.strip()) for title in header]
     named = [
-        (known[1], known[2], title) if known else (title, "", title) for known, title in titles
+        (match[1], match[2], title) if match else (title, "", title) for match, title in titles
     ]
     if theirs := {title: ours for *_, title in named if (ours := elastodyn_names(title))}:
         pairs = ", ".join(f"{title} is {ours}" for title, ours in theirs.items())
@@ -145,14 +145,14 @@ def _factors(header: Iterable[str], path: Path) -> dict[str, float]:
             raise ValueError(f"{path}: unknown column {shown(name)}; known are {', '.join(_UNITS)}")
         if name in factors:
             raise ValueError(f"{path} has two columns {name}: keep one")
-        known = _FACTORS[_UNITS[name]]
+        by_unit = _FACTORS[_UNITS[name]]
         unit = " ".join(written.replace("²", "^2").replace("*", " ").split())
-        if unit not in known:
+        if unit not in by_unit:
             raise ValueError(
                 f"{path}: give the unit of column {shown(title)}, as {name} [{_UNITS[name]}]; "
-                f"known are {', '.join(known)}"
+                f"known are {', '.join(by_unit)}"
             )
-        factors[name] = known[unit]
+        factors[name] = by_unit[unit]
     return factors
 
 

@@ -107,7 +107,7 @@ def _mark(outcome: Outcome | Finding, words: str = "") -> Markup:
     return Markup('<span class="{}">{}</span>').format(kind, f"{mark} {words}".strip())
 
 
-def _told(value: float) -> str:
+def _or_dash(value: float) -> str:
     return f"{value:.3g}" if math.isfinite(value) else "–"
 
 
@@ -129,11 +129,11 @@ def _runs(record: Record) -> dict[str, list[str]]:
     columns = {
         "file": [run.file for run in runs],
         "elements": [str(run.elements) for run in runs],
-        "step [s]": [_told(run.step) for run in runs],
-        "tolerance": [_told(run.tolerance) for run in runs],
+        "step [s]": [_or_dash(run.step) for run in runs],
+        "tolerance": [_or_dash(run.tolerance) for run in runs],
         "unknowns": [str(run.dof or "–") for run in runs],
-        "wall [s]": [_told(run.wall) for run in runs],
-        "CPU [s]": [_told(run.cpu) for run in runs],
+        "wall [s]": [_or_dash(run.wall) for run in runs],
+        "CPU [s]": [_or_dash(run.cpu) for run in runs],
         "what happened": [f"failed: {run.failure}" if run.failure else run.remark for run in runs],
     }
     return {name: of for name, of in columns.items() if set(of) - {"", "–"}}

@@ -206,14 +206,14 @@ def _relative(blade: Blade, name: str, at: FloatArray) -> FloatArray:
     return np.asarray(side / side.max())
 
 
-def _strains(found: SectionLoads) -> FloatArray:
+def _strains(inner: SectionLoads) -> FloatArray:
     """Return ε, γ and κ [1/m], (..., stations, 6), that force and moment cause."""
-    blade, EI, L = found.blade, found.blade.bending_stiffness, found.blade.length
-    at, section = found.stations / L, blade.section
+    blade, EI, L = inner.blade, inner.blade.bending_stiffness, inner.blade.length
+    at, section = inner.stations / L, blade.section
     soft = _flexibility(blade, at)
-    loads = np.concatenate((found.force * L**2 / EI, found.moment * L / EI), axis=-1)
+    loads = np.concatenate((inner.force * L**2 / EI, inner.moment * L / EI), axis=-1)
     shortening: Any = 0.0
-    if found.trapeze and section.knows_space:
+    if inner.trapeze and section.knows_space:
         # N acts on ε + ½k²(κ1² - κ01²): k²Nκ1 of the torque is its own.
         twist, k2 = slope_of(blade.line.in_units(L).twist, at), trapeze_of(soft)
         pull = k2 * loads[..., 0]

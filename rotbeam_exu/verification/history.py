@@ -90,7 +90,7 @@ class Histories:
         """Return the finding of q(t) itself, over max|q|."""
         # Amplitude and frequency have few digits in the estimator's own errors already.
         noise = [HISTORY_FLOOR + np.max(run.rounding / self.scale) for run in self.aligned]
-        finding = self._found(self.aligned, noise, tolerance, self.reference.bound)
+        finding = self._finding(self.aligned, noise, tolerance, self.reference.bound)
         if len(self.case.columns) > 1 and not finding.outcome.passed:
             worst = np.abs(self.differences[self.finest]).max(axis=0).argmax()
             note = f"{finding.note}, most of all {self.case.columns[worst]}"
@@ -166,9 +166,9 @@ class Histories:
             return Finding(outcome=Outcome.DIFFERS, note=note, tolerance=tolerance)
         values = {run: np.array([value / scale]) for run, (value, _) in measured.items()}
         noise = [bar / abs(scale) for _, bar in measured.values()]
-        return self._found(values, noise, tolerance, bound / abs(scale), of_what)
+        return self._finding(values, noise, tolerance, bound / abs(scale), of_what)
 
-    def _found(
+    def _finding(
         self, of: Mapping[Run, FloatArray], noise: Sequence[float], tolerance: float, bound: float,
         of_what: str = "the reference",
     ) -> Finding:  # fmt: skip
