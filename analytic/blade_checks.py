@@ -61,8 +61,8 @@ def require_out_of_plane(
             "stations that couple flap and torsion leave no plane to grow out of: take `stable` of "
             "periodic_orbits, which are in space"
         )
-    known = section.out_of_plane
-    if known is None and not section.knows_space:
+    ratios = section.out_of_plane
+    if ratios is None and not section.knows_space:
         raise ValueError(
             "how this blade bends and twists out of its plane is unknown: give its section by "
             "blade.with_shape(Rectangle(height=..., width=...)) or "
@@ -74,13 +74,13 @@ def require_out_of_plane(
             f"and this one is set at {blade.unit.angle:g} rad: take "
             f"blade.with_setting_angle({blade.setting_angle - blade.unit.angle})"
         )
-    if torsion and known and known.torsion_ratio is None and known.bending_ratio != 1.0:
+    if torsion and ratios and ratios.torsion_ratio is None and ratios.bending_ratio != 1.0:
         raise ValueError(
-            f"with a bending_ratio of {known.bending_ratio:g} the torsional stiffness decides "
+            f"with a bending_ratio of {ratios.bending_ratio:g} the torsional stiffness decides "
             "whether the plane is stable, and it is unknown: give torsion_ratio, math.inf for a "
             "section that does not twist"
         )
-    stays = known and (known.torsion_ratio == math.inf or known.bending_ratio == 1.0)
+    stays = ratios and (ratios.torsion_ratio == math.inf or ratios.bending_ratio == 1.0)
     if torsion and not stays and not section.turns_with_inertia:
         raise ValueError(
             "motion out of the plane is not known for a twist without inertia: give the "

@@ -30,11 +30,11 @@ class Described:
         super().__init_subclass__(**rest)
         if abstract:
             return
-        known = _KINDS.get(cls.__name__, cls)
+        namesake = _KINDS.get(cls.__name__, cls)
         # The same class may be defined anew, as where a module or a notebook's cell runs again.
-        if _place(known) != _place(cls):
+        if _place(namesake) != _place(cls):
             raise TypeError(
-                f"files know {_place(known)} by the name {cls.__name__}: give {_place(cls)} "
+                f"files know {_place(namesake)} by the name {cls.__name__}: give {_place(cls)} "
                 "another one, or begin anew where it has moved"
             )
         _KINDS[cls.__name__] = cls
@@ -55,9 +55,9 @@ def kinds_of(family: type[ValueT]) -> dict[str, type[ValueT]]:
 
 def describe(value: object) -> dict[str, object]:
     """Return kind and fields of a value as plain numbers, texts and lists; or refuse it."""
-    cls, told = type(value), _told(value)
+    cls, description = type(value), _described(value)
     try:
-        whole = bool(from_description(json.loads(json.dumps(told)), cls) == value)
+        whole = bool(from_description(json.loads(json.dumps(description)), cls) == value)
     except (TypeError, ValueError):
         whole = False
     if not whole:
@@ -65,24 +65,24 @@ def describe(value: object) -> dict[str, object]:
             f"no file can hold {value!r}: let the fields of {_place(cls)} be numbers, text, or "
             "tuples of them"
         )
-    return told
+    return description
 
 
-def from_description(told: Mapping[str, object], family: type[ValueT]) -> ValueT:
+def from_description(description: Mapping[str, object], family: type[ValueT]) -> ValueT:
     """Return the value that `describe` told of; refuse one of no known kind of the family."""
-    kind = told.get(_KIND)
+    kind = description.get(_KIND)
     cls = kinds_of(family).get(str(kind))
     if cls is None:
         sort = "kind" if family is Described else family.__name__
         raise ValueError(f"{kind!r} is no known {sort}: import the module that defines it")
-    given = {name: _value(part) for name, part in told.items() if name != _KIND}
+    values = {name: _value(part) for name, part in description.items() if name != _KIND}
     try:
-        return cls(**given)
+        return cls(**values)
     except TypeError as error:
         raise ValueError(f"this is no {kind} as {_place(cls)} defines it: {error}") from error
 
 
-def _told(value: object) -> dict[str, object]:
+def _described(value: object) -> dict[str, object]:
     cls = type(value)
     if _KINDS.get(cls.__name__) is not cls or "__dataclass_fields__" not in vars(cls):
         raise TypeError(
@@ -95,7 +95,7 @@ def _told(value: object) -> dict[str, object]:
 
 def _plain(part: object) -> object:
     if isinstance(part, Described):
-        return _told(part)
+        return _described(part)
     return list(map(_plain, part)) if isinstance(part, tuple | list) else part
 
 

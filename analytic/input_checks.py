@@ -31,19 +31,19 @@ def bare(name: str, value: object, unit: str | None) -> object:
 
     Where the unit is None, as of a table whose columns differ in it, a quantity is refused.
     """
-    own = getattr(value, "units", getattr(value, "unit", None))
-    if own is None:
+    units = getattr(value, "units", getattr(value, "unit", None))
+    if units is None:
         return value
     if unit is None:
         raise ValueError(
-            f"{name} has entries of different units, got a quantity in {own}: convert each column "
-            "to SI and give the numbers"
+            f"{name} has entries of different units, got a quantity in {units}: convert each "
+            "column to SI and give the numbers"
         )
-    if isinstance(own, str):  # a label, as xarray's arrays carry it, converts nothing
-        if own == (unit or "1"):
+    if isinstance(units, str):  # a label, as xarray's arrays carry it, converts nothing
+        if units == (unit or "1"):
             return np.asarray(value)[()]
-        raise ValueError(f"{name} must be{_in(unit or '1')}, got units {own!r}: convert it first")
-    text = str(own)
+        raise ValueError(f"{name} must be{_in(unit or '1')}, got units {units!r}: convert it first")
+    text = str(units)
     if unit == "rad/s" and not any(angle in text for angle in _ANGLES):
         # Libraries take an angle for a plain number, so that 1 Hz would come out as 1 rad/s.
         raise ValueError(f"{name} must be in rad/s, got {text}, which names no angle: convert it")

@@ -108,13 +108,13 @@ class Load(Described, abstract=True):
 
         TypeError of a number whose dimension the class does not tell.
         """
-        known, scaled = {self._of_size(): self.dimension, **self.dimensions}, {}
+        dimensions, scaled = {self._of_size(): self.dimension, **self.dimensions}, {}
         for name in (one.name for one in fields(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
             if name == "frequency":
                 scaled[name] = None if value is None else value * time
-            elif name in known:
-                for unit, power in zip((length, mass, time), known[name], strict=True):
+            elif name in dimensions:
+                for unit, power in zip((length, mass, time), dimensions[name], strict=True):
                     value /= unit**power
                 scaled[name] = value
             elif not isinstance(value, str | None):

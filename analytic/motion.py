@@ -44,18 +44,18 @@ class Motion(Described, ABC, abstract=True):
 
     def angle(self, t: NumbersT) -> NumbersT:
         """Return the angle θ [rad], zero at t = 0; `t` [s] scalar or array, result in its shape."""
-        found: NumbersT = self._at(instants(t), 0)
-        return found
+        angle: NumbersT = self._at(instants(t), 0)
+        return angle
 
     def rate(self, t: NumbersT) -> NumbersT:
         """Return the angular velocity dθ/dt [rad/s]; `t` [s] scalar or array."""
-        found: NumbersT = self._at(instants(t), 1)
-        return found
+        rate: NumbersT = self._at(instants(t), 1)
+        return rate
 
     def acceleration(self, t: NumbersT) -> NumbersT:
         """Return the angular acceleration d²θ/dt² [rad/s²]; `t` [s] scalar or array."""
-        found: NumbersT = self._at(instants(t), 2)
-        return found
+        acceleration: NumbersT = self._at(instants(t), 2)
+        return acceleration
 
 
 @dataclass(frozen=True, kw_only=True)

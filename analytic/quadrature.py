@@ -113,8 +113,8 @@ class Grid:
             rows = np.flatnonzero(self.counts[cell] == count)
             at = cell[rows]
             part = integrals_from_clamp(count, (x[rows] - self.ends[at]) / width[at])
-            own = self._first[at][:, None] + np.arange(count)
-            parts.append((rows, own, width[at][:, None] * part))
+            points = self._first[at][:, None] + np.arange(count)
+            parts.append((rows, points, width[at][:, None] * part))
         return cell, parts
 
     def integrals(self, values: FloatArray, x: FloatArray) -> FloatArray:
@@ -125,8 +125,8 @@ class Grid:
         cell, parts = self._inside(x)
         on_cells = np.add.reduceat(self.weights[:, None] * values, self._first)
         result = np.concatenate((np.zeros((1, values.shape[1])), np.cumsum(on_cells, axis=0)))[cell]
-        for rows, own, part in parts:
-            result[rows] += np.einsum("xp,xpn->xn", part, values[own])
+        for rows, points, part in parts:
+            result[rows] += np.einsum("xp,xpn->xn", part, values[points])
         return np.asarray(result)
 
     def interpolation(self, x: FloatArray) -> FloatArray:
@@ -149,8 +149,8 @@ class Grid:
         cell, parts = self._inside(x)
         before = np.arange(self.points.size) < self._first[cell][:, None]
         result = np.where(before, self.weights, 0.0)
-        for rows, own, part in parts:
-            result[rows[:, None], own] = part
+        for rows, points, part in parts:
+            result[rows[:, None], points] = part
         return result
 
 
@@ -199,9 +199,9 @@ class Running:
         """Return the integrals up to each place of a field at the grid's points."""
         result = np.empty((*field.shape[:-1], self.count))
         before: FloatArray | float = 0.0
-        for own, places, onto, weights in self.stretches:
-            result[..., places] = field[..., own] @ onto + before
-            before = before + (field[..., own] @ weights)[..., None]
+        for points, places, onto, weights in self.stretches:
+            result[..., places] = field[..., points] @ onto + before
+            before = before + (field[..., points] @ weights)[..., None]
         return result
 
     def beyond(self, field: FloatArray) -> FloatArray:
@@ -211,9 +211,9 @@ class Running:
         """
         result = np.empty((*field.shape[:-1], self._points))
         after: FloatArray | float = 0.0
-        for own, places, onto, weights in reversed(self.stretches):
+        for points, places, onto, weights in reversed(self.stretches):
             values = field[..., places]
-            result[..., own] = values @ onto.T + after * weights
+            result[..., points] = values @ onto.T + after * weights
             after = after + values.sum(axis=-1, keepdims=True)
         return result
 

@@ -69,13 +69,13 @@ class FourierRamp(SpeedChange):
         )
         k = np.arange(1, len(self.sines) + 1)
         sums = (("cosines", math.fsum(self.cosines), -1.0), ("sines", float(k @ self.sines), 0.0))
-        for name, found, wanted in sums:
-            if abs(found - wanted) > _ROUND_OFF:
+        for name, value, target in sums:
+            if abs(value - target) > _ROUND_OFF:
                 weighted = "k times " if name == "sines" else ""
                 raise ValueError(
-                    f"the sum of {weighted}the {name} must be {wanted:g}, for the acceleration "
-                    f"and the jerk to vanish at both ends, got {found:.9g}: change one of them "
-                    f"by {wanted - found:.3g}{' over its k' if weighted else ''}"
+                    f"the sum of {weighted}the {name} must be {target:g}, for the acceleration "
+                    f"and the jerk to vanish at both ends, got {value:.9g}: change one of them "
+                    f"by {target - value:.3g}{' over its k' if weighted else ''}"
                 )
 
     @property

@@ -104,8 +104,8 @@ class Section(Described):
     @property
     def turns_with_inertia(self) -> bool:
         """Whether slices have inertia against torsion: a told one that is not zero, or a usual."""
-        told = self.inertia_against_torsion
-        return told is None or in_units(told, 1.0, 1.0) != 0.0
+        inertia = self.inertia_against_torsion
+        return inertia is None or in_units(inertia, 1.0, 1.0) != 0.0
 
     @property
     def inertia_against_torsion(self) -> Profile | None:
@@ -154,8 +154,8 @@ class Section(Described):
             "bending_stiffness": self.bending_stiffness,
             "mass_per_length": self.mass_per_length,
         }
-        told = self.rotary_inertia
-        return profiles if told is None else profiles | {"rotary_inertia": told}
+        inertia = self.rotary_inertia
+        return profiles if inertia is None else profiles | {"rotary_inertia": inertia}
 
     def of_unit_mass(self) -> Section:
         """Return the section with one unit of mass per length on its line, and no inertia."""

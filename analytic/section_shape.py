@@ -74,7 +74,7 @@ class SectionShape(Described, ABC, abstract=True):
             self._gyration(self._given)  # refuses lengths that no shape has
 
     @abstractmethod
-    def _fitting(self, own: Gyration) -> dict[str, float]:
+    def _fitting(self, gyration: Gyration) -> dict[str, float]:
         """Return the lengths [m] by name that follow from I/A and, if it is known, A."""
 
     @abstractmethod
@@ -85,28 +85,28 @@ class SectionShape(Described, ABC, abstract=True):
     def _ratios(self, lengths: Mapping[str, float]) -> tuple[float, float]:
         """Return I out of the plane and the torsion constant J over I."""
 
-    def out_of_plane(self, own: Gyration) -> OutOfPlane:
+    def out_of_plane(self, gyration: Gyration) -> OutOfPlane:
         """Return the stiffness out of the plane, refusing what contradicts the blade's `own`."""
-        lengths = self._fitting(own) | self._given
-        if difference := self._difference(lengths, own):
-            fitting = type(self)()._fitting(own)
+        lengths = self._fitting(gyration) | self._given
+        if difference := self._difference(lengths, gyration):
+            fitting = type(self)()._fitting(gyration)
             remedy = f"{', '.join(f'{name}={x:.4g}' for name, x in fitting.items())} fits it"
-            if not fitting or (own.area and self._difference(fitting, own)):
+            if not fitting or (gyration.area and self._difference(fitting, gyration)):
                 remedy = "take another shape, or with_section_out_of_plane"
             raise ValueError(f"{self!r} has {difference} of this blade: {remedy}")
         across, torsion = self._ratios(lengths)
         shear = 0.5 / (1.0 + self.poisson_ratio)
         return OutOfPlane(bending_ratio=across, torsion_ratio=shear * torsion)
 
-    def _difference(self, lengths: Mapping[str, float], own: Gyration) -> str:
+    def _difference(self, lengths: Mapping[str, float], gyration: Gyration) -> str:
         """Return how the lengths contradict a blade's `own`, empty if they do not."""
         has = self._gyration(lengths)
-        for what, found, wanted in (
-            ("I/A", has.squared, own.squared), ("A", has.area, own.area)
+        for what, value, target in (
+            ("I/A", has.squared, gyration.squared), ("A", has.area, gyration.area)
         ):  # fmt: skip
-            off = abs(found / wanted - 1.0) if found and wanted else 0.0
+            off = abs(value / target - 1.0) if value and target else 0.0
             if off > _SAME:
-                return f"{what} = {found:.4g} m², {100.0 * off:.3g} % from the {wanted:.4g} m²"
+                return f"{what} = {value:.4g} m², {100.0 * off:.3g} % from the {target:.4g} m²"
         return ""
 
     @abstractmethod
@@ -136,9 +136,9 @@ class SectionShape(Described, ABC, abstract=True):
         )
         if self._missing:
             raise ValueError(f"{self!r} along a blade needs {' and '.join(self._missing)} [m]")
-        own = self._gyration(self._given)
-        A = own.area or math.nan
-        inertia, G = own.squared * A, 0.5 * E / (1.0 + self.poisson_ratio)
+        gyration = self._gyration(self._given)
+        A = gyration.area or math.nan
+        inertia, G = gyration.squared * A, 0.5 * E / (1.0 + self.poisson_ratio)
         (across, torsion), (k2, k3) = self._ratios(self._given), self._shear(self._given)
         stiffness = E * A, k2 * G * A, k3 * G * A, G * torsion * inertia, E * across * inertia
         j2, j3 = rho * across * inertia, rho * inertia

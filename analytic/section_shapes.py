@@ -38,13 +38,13 @@ class _TwoSided(SectionShape, ABC, abstract=True):
                     f"give width or ratio, which is height over width, not both: {self}"
                 )
 
-    def _fitting(self, own: Gyration) -> dict[str, float]:
-        height = math.sqrt(self._deep * own.squared)
+    def _fitting(self, gyration: Gyration) -> dict[str, float]:
+        height = math.sqrt(self._deep * gyration.squared)
         if self.ratio is not None:
             return {"height": height, "width": (self.height or height) / self.ratio}
-        if own.area is None:
+        if gyration.area is None:
             return {"height": height}
-        return {"height": height, "width": own.area / (self._filled * (self.height or height))}
+        return {"height": height, "width": gyration.area / (self._filled * (self.height or height))}
 
     def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
         if "width" not in lengths:
@@ -154,13 +154,13 @@ class Tube(SectionShape):
                 "less half the wall"
             )
 
-    def _fitting(self, own: Gyration) -> dict[str, float]:
-        if own.area is None:
-            return {"radius": math.sqrt(2.0 * own.squared)}
+    def _fitting(self, gyration: Gyration) -> dict[str, float]:
+        if gyration.area is None:
+            return {"radius": math.sqrt(2.0 * gyration.squared)}
         # A = 2πrt and I/A = (r² + t²/4)/2
-        thin = own.area / (2.0 * math.pi)
-        rest = max(own.squared**2 - 0.25 * thin**2, 0.0)
-        radius = math.sqrt(own.squared + math.sqrt(rest))
+        thin = gyration.area / (2.0 * math.pi)
+        rest = max(gyration.squared**2 - 0.25 * thin**2, 0.0)
+        radius = math.sqrt(gyration.squared + math.sqrt(rest))
         return {"radius": radius, "wall": thin / radius}
 
     def _gyration(self, lengths: Mapping[str, float]) -> Gyration:
@@ -213,7 +213,7 @@ class Box(SectionShape):
     width: Length | None = None
     wall: Length | None = None
 
-    def _fitting(self, own: Gyration) -> dict[str, float]:
+    def _fitting(self, gyration: Gyration) -> dict[str, float]:
         return {}  # height and wall do not follow from I/A and A alone
 
     def _gyration(self, lengths: Mapping[str, float]) -> Gyration:

@@ -1,7 +1,7 @@
-"""Refinement until it changes no more than a tolerance, or an answer with the change that is left.
+"""Refinement until an answer changes by no more than a tolerance.
 
-One rule for all: an answer short of its tolerance comes with a warning; one that is not known to
-1e-3 is refused.
+One rule for all: an answer that misses its tolerance comes with a warning, and one whose last
+change is above 1e-3 is refused.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from .input_checks import positive
 from .warning import warn
 
 SizeT = TypeVar("SizeT")
-FoundT = TypeVar("FoundT")
+ResultT = TypeVar("ResultT")
 
 KNOWN = 1e-3
-"""Change of the finest two solutions beyond which there is no answer."""
-_FINEST = 1e-12  # the least tolerance that round-off leaves in reach
-_ROUND_OFF = 1e-9  # change below which one that no longer falls is round-off
+"""Largest change of the finest two solutions with which there is an answer."""
+_FINEST = 1e-12  # least tolerance above round-off
+_ROUND_OFF = 1e-9  # largest change that is round-off once it no longer falls
 
 
 def require_tolerance(tolerance: float | None, default: float) -> float:
-    """Return a tolerance, or that by default; refuse one out of reach, and one of no digits."""
+    """Return a tolerance or the default; refuse one below round-off, and one above 1e-3."""
     if tolerance is None:
         return default
     if not _FINEST <= positive("tolerance", tolerance) <= KNOWN:
@@ -38,36 +38,52 @@ def require_tolerance(tolerance: float | None, default: float) -> float:
 
 
 def settled(
-    solve: Callable[[SizeT], FoundT],
+    solve: Callable[[SizeT], ResultT],
     sizes: Iterator[SizeT],
     tolerance: float,
-    of: Callable[[FoundT], ArrayLike],
+    of: Callable[[ResultT], ArrayLike],
     what: str,
     remedy: str,
     *,
     left: float | None = None,
-) -> tuple[FoundT, FoundT, float]:
-    """Return a result, the finer result that confirms it, and the largest change.
+) -> tuple[ResultT, ResultT, float]:
+    """Return a result, the finer result that confirms it, and the largest change between them.
 
-    They are the first two in a row whose numbers `of` a result agree to the tolerance; logarithms
-    give relative changes. Of all sizes the last two may differ by 1e-3, with a warning; or by what
-    is `left`, without. By more they are refused. Both sentences say in `what`, and end on the
-    `remedy`.
+    Parameters
+    ----------
+    solve : callable
+        Solution on one size.
+    sizes : iterator
+        From coarse to fine; it ends with the finest that is allowed.
+    tolerance : float
+        The first two neighbors that differ by no more are the answer.
+    of : callable
+        Numbers of a solution that are compared; of logarithms the changes are relative.
+    what, remedy : str
+        Name of these numbers and advice, for the warning and the error.
+    left : float, optional
+        Largest change of the last two sizes that is taken without a warning. By default 1e-3 is
+        taken, with one.
+
+    Raises
+    ------
+    ValueError
+        If the last two sizes differ by more.
     """
-    found, change = solve(next(sizes)), math.inf
+    finest, change = solve(next(sizes)), math.inf
     for size in sizes:
-        (before, found), last = (found, solve(size)), change
-        change = float(np.max(np.abs(np.subtract(of(found), of(before)))))
+        (coarser, finest), previous = (finest, solve(size)), change
+        change = float(np.max(np.abs(np.subtract(of(finest), of(coarser)))))
         if change <= tolerance:
-            return before, found, change
-        if last <= 2.0 * change <= _ROUND_OFF:
+            return coarser, finest, change
+        if previous <= 2.0 * change <= _ROUND_OFF:
             break
     sentence = f"the finest two solutions differ by {change:.1e} in {what}"
     if change > (KNOWN if left is None else left):
         raise ValueError(f"{sentence}; {remedy}")
     if left is None:
         warn(f"{sentence}, more than the tolerance of {tolerance:g}: take a larger one, {remedy}")
-    return before, found, change
+    return coarser, finest, change
 
 
 def refined(

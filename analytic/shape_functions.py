@@ -87,7 +87,7 @@ class ShapeFunctions:
         return np.asarray(inside * (first + slope * lever + self._grid.integrals(self._shear, x)))
 
     @cached_property
-    def _own(self) -> FloatArray:
+    def _orthonormal(self) -> FloatArray:
         """The upper triangular matrix that makes the strains orthonormal."""
         x, weights = self._grid.points, self._grid.weights[:, None]
         factor = np.linalg.qr(np.sqrt(weights / self._profile(x)) * self.forces(x), mode="r")
@@ -95,13 +95,13 @@ class ShapeFunctions:
 
     def strain(self, x: FloatArray) -> FloatArray:
         """Return the strains at `x`, (places, count)."""
-        return np.asarray(self.forces(x) / self._profile(x) @ self._own)
+        return np.asarray(self.forces(x) / self._profile(x) @ self._orthonormal)
 
     def elongation_slope(self, x: FloatArray) -> FloatArray:
         """Return the derivatives of N/EA at `x`, (places, count)."""
         S, slopes = self._profile(x), self._mass(x) * self._polynomials(x).slope
         bent = slope_of(self.blade.axial, x)[:, None] / S
-        return np.asarray((slopes - bent * self.forces(x)) / S @ self._own)
+        return np.asarray((slopes - bent * self.forces(x)) / S @ self._orthonormal)
 
     @cached_property
     def _strains(self) -> FloatArray:

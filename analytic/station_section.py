@@ -289,21 +289,21 @@ def nested(matrices: FloatArray) -> Any:
 
 def _matrices(name: str, x: FloatArray, values: ArrayLike) -> FloatArray:
     """Return symmetric matrices (stations, 6, 6)."""
-    found = finite_array(name, values)
-    if found.shape != (x.size, 6, 6):
+    matrices = finite_array(name, values)
+    if matrices.shape != (x.size, 6, 6):
         raise ValueError(
-            f"{name} must be a 6x6 matrix at each of the {x.size} stations, got {found.shape}"
+            f"{name} must be a 6x6 matrix at each of the {x.size} stations, got {matrices.shape}"
         )
-    size = np.sqrt(np.abs(np.einsum("sii->si", found)))
-    off = np.abs(found - np.swapaxes(found, 1, 2))
+    size = np.sqrt(np.abs(np.einsum("sii->si", matrices)))
+    off = np.abs(matrices - np.swapaxes(matrices, 1, 2))
     over = off - _EVEN * size[:, :, None] * size[:, None]
     if over.max() > 0.0:
         k, i, j = np.unravel_index(np.argmax(over), over.shape)
         raise ValueError(
             f"{name} at x = {x[k]:g} m is not symmetric: entries ({i + 1}, {j + 1}) and "
-            f"({j + 1}, {i + 1}) are {found[k, i, j]:g} and {found[k, j, i]:g}"
+            f"({j + 1}, {i + 1}) are {matrices[k, i, j]:g} and {matrices[k, j, i]:g}"
         )
-    return np.asarray(0.5 * (found + np.swapaxes(found, 1, 2)))
+    return np.asarray(0.5 * (matrices + np.swapaxes(matrices, 1, 2)))
 
 
 def _require_stiffness(x: float, stiffness: FloatArray) -> None:

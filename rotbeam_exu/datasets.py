@@ -155,7 +155,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
         "angle": (motion.angle(response.time), "rotation angle θ [rad]"),
         **_root_loads(response),
     }
-    found = dataset(
+    data = dataset(
         {name: ("time", *column) for name, column in columns.items()},
         {"time": (response.time, "time t [s]")},
         {
@@ -170,7 +170,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
         },
     )
     along = response.points
-    return found.merge(shape_of(response.section_loads(along))) if along.size else found
+    return data.merge(shape_of(response.section_loads(along))) if along.size else data
 
 
 @_described.register
@@ -212,13 +212,13 @@ def _root_loads(response: SpinUpResponse) -> dict[str, tuple[FloatArray, str]]:
 
     By the clamp's axes, as of a run, not by those of its section, which may be set.
     """
-    found = response.section_loads([0.0])
-    kinds = ("force", "N", _FORCES, found.force), ("moment", "N m", _MOMENTS, found.moment)
+    root = response.section_loads([0.0])
+    kinds = ("force", "N", _FORCES, root.force), ("moment", "N m", _MOMENTS, root.moment)
     return {
         f"root_{kind}_{axis}": (column, f"{names[axis]} at the root [{unit}]")
         for kind, unit, names, loads in kinds
         for axis, column in zip(
-            "xyz", np.einsum("tij,tj->it", found.section[:, 0], loads[:, 0]), strict=True
+            "xyz", np.einsum("tij,tj->it", root.section[:, 0], loads[:, 0]), strict=True
         )
     }
 
@@ -228,17 +228,17 @@ def _(response: ForcedResponse) -> xr.Dataset:
     """Return `_curve`, the directions of `stable`, and where known what grows out of the plane."""
     data = _curve(response)
     data = data.assign_attrs(stable_covers=response.covers)
-    if (found := response._growth) is None:
+    if (grown := response._growth) is None:
         section = response.blade.section
         unknown = section.out_of_plane is None and not section.knows_space
         if response._beyond is None or unknown:
             return data
         return data.assign_attrs(planar=f"Stability is about {response.covers}")
     growth: dict[str, tuple[str, ArrayLike, str]] = {
-        "growth_rate": ("point", found.growth_rate, GROWTH),
-        "kind": ("point", list(found.kind), "how it grows"),
+        "growth_rate": ("point", grown.growth_rate, GROWTH),
+        "kind": ("point", list(grown.kind), "how it grows"),
     }
-    return data.merge(dataset(growth, {})).assign_attrs(planar=str(found))
+    return data.merge(dataset(growth, {})).assign_attrs(planar=str(grown))
 
 
 def _curve(response: ForcedResponse) -> xr.Dataset:
@@ -277,8 +277,8 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
     inputs = response_inputs(
         response.blade, response.load, None if weight else float(response.omega[0])
     )
-    known = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
-    return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **known})
+    quality = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
+    return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **quality})
 
 
 def response_inputs(blade: Blade, load: Load, omega: float | None) -> dict[str, object]:

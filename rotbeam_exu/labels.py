@@ -36,8 +36,10 @@ def dataset(
     return xr.Dataset(
         {name: (dims, values, labeled(label)) for name, (dims, values, label) in variables.items()},
         {
-            name: (name, found[0], labeled(found[1])) if isinstance(found, tuple) else found
-            for name, found in coords.items()
+            name: (name, coordinate[0], labeled(coordinate[1]))
+            if isinstance(coordinate, tuple)
+            else coordinate
+            for name, coordinate in coords.items()
         },
         attrs,
     )

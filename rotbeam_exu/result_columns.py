@@ -34,7 +34,9 @@ Column = tuple[Dims, str, Callable[[Any], Any]]
 """Dims, label with unit, and how the values come from the result."""
 
 
-def of_columns(columns: Mapping[str, Column], known: tuple[str, ...], result: object) -> xr.Dataset:
+def of_columns(
+    columns: Mapping[str, Column], inputs: tuple[str, ...], result: object
+) -> xr.Dataset:
     """Return the Dataset of a result; modes and harmonics count from 1.
 
     `known` are the attributes about all of it; its blade and theory are kept where it has them.
@@ -45,7 +47,7 @@ def of_columns(columns: Mapping[str, Column], known: tuple[str, ...], result: ob
     data = dataset(
         {name: (dims, of(result), label) for name, (dims, label, of) in columns.items()},
         {},
-        {**about, **{name: getattr(result, name) for name in known}},
+        {**about, **{name: getattr(result, name) for name in inputs}},
     )
     counted = {"mode", "harmonic"} & set(data.dims) - set(data.coords)
     parts = {"part": ["real", "imaginary"]} if "part" in data.dims else {}
@@ -54,23 +56,23 @@ def of_columns(columns: Mapping[str, Column], known: tuple[str, ...], result: ob
     )
 
 
-def _own(name: str, dims: Dims, label: str) -> Column:
+def _named(name: str, dims: Dims, label: str) -> Column:
     return dims, label, attrgetter(name)
 
 
 def _part(name: str, k: int, dims: Dims, label: str) -> Column:
-    return dims, label, lambda found: getattr(found, name)[..., k]
+    return dims, label, lambda result: getattr(result, name)[..., k]
 
 
 def _each(what: str, name: str, label: str, kind: type | None = float) -> Column:
     """Return a column over the crossings, the tongues or the rows of a result."""
     of, all_of = attrgetter(name), attrgetter(f"{what}s")
-    return what, label, lambda found: np.array([*map(of, all_of(found))], kind)
+    return what, label, lambda result: np.array([*map(of, all_of(result))], kind)
 
 
 def _columns(dims: Dims, **labels: str) -> dict[str, Column]:
     """Return columns that have the names of the result's attributes."""
-    return {name: _own(name, dims, label) for name, label in labels.items()}
+    return {name: _named(name, dims, label) for name, label in labels.items()}
 
 
 SWINGS = {
@@ -88,13 +90,13 @@ _ORBITS = _columns(
     first_harmonic="first harmonic of q/L",
     residual="residual of the equations of motion",
     jacobi_drift="drift of the Jacobi integral",
-) | {"sine": _own("harmonics", ("orbit", "harmonic"), "q/L over sin kφ")}
+) | {"sine": _named("harmonics", ("orbit", "harmonic"), "q/L over sin kφ")}
 _OF_ORBITS = ("omega", "mode", "omega_n", "lambda_omega", "lambda_omega_error")
 _POINTS = _columns("point", amplitude="peak amplitude |q|/L", frequency="frequency [rad/s]") | {
-    "mark": ("point", "what is special about the point", lambda found: [*found.marks])
+    "mark": ("point", "what is special about the point", lambda result: [*result.marks])
 }
-_NAMES: Column = ("mode", "mode", lambda found: [*found.names])
-_FREQUENCY = {"frequency": _own("frequencies", "mode", "natural frequency [rad/s]")}
+_NAMES: Column = ("mode", "mode", lambda result: [*result.names])
+_FREQUENCY = {"frequency": _named("frequencies", "mode", "natural frequency [rad/s]")}
 
 COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
     Orbits: (_ORBITS | _columns("orbit", **SWINGS), _OF_ORBITS),
@@ -107,8 +109,8 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
     ),
     BackboneCurve: (
         {
-            "ratio": _own("series.coef", "coefficient", "ω_NL/ω_n, of Chebyshev's series in a²"),
-            "first_harmonic": _own(
+            "ratio": _named("series.coef", "coefficient", "ω_NL/ω_n, of Chebyshev's series in a²"),
+            "first_harmonic": _named(
                 "first.coef", "coefficient", "first harmonic over the peak, of the same series"
             ),
         },
@@ -129,7 +131,7 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
         ("omega", "force", "moment", "gravity", "error"),
     ),
     QuietRamps: (
-        {"ramp_time": _own("ramp_times", "ramp", "quiet ramp time T [s]")} | _columns(
+        {"ramp_time": _named("ramp_times", "ramp", "quiet ramp time T [s]")} | _columns(
             "ramp", left="amplitude left over L", linear="the same by the closed form"
         ),
         ("omega",),
@@ -141,24 +143,24 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
     ),
     GrowthOutOfPlane: (
         {
-            "a": _own("amplitude", "a", ORBIT),
-            "growth_rate": _own("growth_rate", "a", GROWTH),
-            "kind": ("a", "how it grows", lambda found: list(found.kind)),
-            "modes": ("a", "what grows", lambda found: list(map(" and ".join, found.modes))),
-            "converged": _own("converged", "a", "converged"),
-            "frequency": _own("frequency", "a", "frequency of the planar orbit [rad/s]"),
+            "a": _named("amplitude", "a", ORBIT),
+            "growth_rate": _named("growth_rate", "a", GROWTH),
+            "kind": ("a", "how it grows", lambda result: list(result.kind)),
+            "modes": ("a", "what grows", lambda result: list(map(" and ".join, result.modes))),
+            "converged": _named("converged", "a", "converged"),
+            "frequency": _named("frequency", "a", "frequency of the planar orbit [rad/s]"),
             "multipliers": (
                 ("a", "multiplier", "part"), "Floquet multiplier out of the plane",
-                lambda found: np.stack((found.multipliers.real, found.multipliers.imag), axis=-1),
+                lambda one: np.stack((one.multipliers.real, one.multipliers.imag), axis=-1),
             ),
         },
         ("omega", "mode"),
     ),
     StabilityLimit: (
         {
-            "limit": _own("amplitude", (), "amplitude |q|/L above which planar orbits leave"),
-            "limit_growth": _own("growth", (), "growth exponent that counts [1/rad]"),
-            "limit_converged": _own("converged", (), "whether the limit is settled"),
+            "limit": _named("amplitude", (), "amplitude |q|/L above which planar orbits leave"),
+            "limit_growth": _named("growth", (), "growth exponent that counts [1/rad]"),
+            "limit_converged": _named("converged", (), "whether the limit is settled"),
             "tongue_low": _each("tongue", "low", "amplitude |q|/L, from"),
             "tongue_high": _each("tongue", "high", "amplitude |q|/L, to"),
             "tongue_growth": _each("tongue", "growth", "growth exponent [1/rad]"),
@@ -167,9 +169,9 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
     ),
     Campbell: (
         {
-            "omega": _own("omegas", "omega", OMEGA),
+            "omega": _named("omegas", "omega", OMEGA),
             "mode": _NAMES,
-            "frequency": _own("frequencies", ("omega", "mode"), "frequency [rad/s]"),
+            "frequency": _named("frequencies", ("omega", "mode"), "frequency [rad/s]"),
             "crossing_mode": (
                 "crossing", "mode that crosses k ω",
                 lambda diagram: np.array([one.mode for one in diagram.crossings], str),

@@ -26,7 +26,7 @@ _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
 _LOCATED = 1e-9  # of the way between two points; what is stationary there is right to the square
 _TANGENT = 1e-6  # of a tangent's length, that products may leave, twice
-_TOLD, _SMALL = 7, 0.1  # values that tell whether a determinant gets small, over both ends
+_ENOUGH, _SMALL = 7, 0.1  # values that tell whether a determinant gets small, over both ends
 _SINGULAR = 1e-3  # least singular value over the next at a branch point
 
 
@@ -56,7 +56,7 @@ class Point:
     steps: int  # of Newton's method
     factors: Any
     matrix: Callable[[], FloatArray]
-    _own: Any  # factors of the matrix here, if they were made
+    factors_here: Any  # factors of the matrix here, if they were made
 
     @cached_property
     def determinant(self) -> float:
@@ -64,7 +64,7 @@ class Point:
 
         In size what a right side of unit length is over its solution: zero there, and smooth.
         """
-        lu, pivots = self._own or linalg.lu_factor(self.matrix(), check_finite=False)
+        lu, pivots = self.factors_here or linalg.lu_factor(self.matrix(), check_finite=False)
         swaps = np.count_nonzero(pivots != np.arange(pivots.size))
         sign = (-1.0) ** swaps * np.prod(np.sign(np.diag(lu)))
         side = np.random.default_rng(0).normal(size=self.z.size)
@@ -86,19 +86,19 @@ def corrected(
         product = curve.products(z)
         return lambda change: np.append(product(change), across @ change)
 
-    found = _NEWTON.root(
+    root = _NEWTON.root(
         guess,
         residual,
         lambda z: (factored(matrix(z)), residual(z)),
         factors=factors,
         products=products,
     )
-    if found is None:
+    if root is None:
         raise NoOrbitError("Newton's method does not converge")
     # The last row of the matrix is `across`; times the length it is the tangent's, in sign.
-    z, last, own = found.z, np.eye(1, guess.size, guess.size - 1)[0], None
+    z, last, here = root.z, np.eye(1, guess.size, guess.size - 1)[0], None
     if z.size > LARGE:
-        factors, product = found.factors, products(z)
+        factors, product = root.factors, products(z)
         tangent = _by_products(product, factors, last)
         if tangent is None:
             factors = factored(matrix(z))
@@ -106,10 +106,10 @@ def corrected(
         if tangent is None:
             raise NoOrbitError("the curve's direction is not found")
     else:
-        factors = own = factored(matrix(z))
+        factors = here = factored(matrix(z))
         tangent = solved(factors, last)
     tangent /= np.linalg.norm(tangent)
-    return Point(z, tangent, found.steps, factors, partial(matrix, z), own)
+    return Point(z, tangent, root.steps, factors, partial(matrix, z), here)
 
 
 def _by_products(product: Vector, factors: Any, vector: FloatArray) -> FloatArray | None:
@@ -125,16 +125,16 @@ def advanced(curve: Curve, point: Point, step: float, longest: float) -> tuple[P
     """Return the next point at about `step`, and the step after it; raises NoOrbitError."""
     for _ in range(_HALVINGS):
         try:
-            found = corrected(curve, point.z + step * point.tangent, point.tangent, point.factors)
+            ahead = corrected(curve, point.z + step * point.tangent, point.tangent, point.factors)
         except NoOrbitError:
             step *= 0.5
             continue
-        if found.tangent @ point.tangent < _LARGEST_TURN:
+        if ahead.tangent @ point.tangent < _LARGEST_TURN:
             step *= 0.5
             continue
-        if found.steps <= _EASY:
-            return found, min(1.5 * step, longest)
-        return found, step if found.steps < _HARD else 0.5 * step
+        if ahead.steps <= _EASY:
+            return ahead, min(1.5 * step, longest)
+        return ahead, step if ahead.steps < _HARD else 0.5 * step
     raise NoOrbitError(f"steps down to {step:.1e} of the curve's length find no next point")
 
 
@@ -142,22 +142,22 @@ def located(
     curve: Curve, start: Point, end: Point, function: Callable[[Point], float]
 ) -> Point | None:
     """Return the point between two where `function` is zero, None if its sign does not change."""
-    found: dict[float, Point] = {}
+    points: dict[float, Point] = {}
     reach = float(start.tangent @ (end.z - start.z))
 
     def at(share: float) -> float:
-        if share not in found:
+        if share not in points:
             guess = start.z + share * (end.z - start.z)
             # The plane at this distance along the start's tangent, whatever the guess.
-            found[share] = corrected(curve, guess, start.tangent, start.factors)
-        return function(found[share])
+            points[share] = corrected(curve, guess, start.tangent, start.factors)
+        return function(points[share])
 
-    found[0.0], found[1.0] = start, end
+    points[0.0], points[1.0] = start, end
     if at(0.0) * at(1.0) > 0.0 or reach == 0.0:
         return None
     share = optimize.brentq(at, 0.0, 1.0, xtol=_LOCATED)
     at(share)
-    return found[share]
+    return points[share]
 
 
 def crossing(curve: Curve, start: Point, end: Point) -> FloatArray | None:
@@ -166,20 +166,20 @@ def crossing(curve: Curve, start: Point, end: Point) -> FloatArray | None:
     There the equations' Jacobian has two null vectors. The determinant changes its sign through
     infinity too, where a narrow excursion of the curve is stepped over.
     """
-    seen = list[float]()
+    determinants = list[float]()
 
     def singular(point: Point) -> float:
-        seen.append(abs(point.determinant))
-        if len(seen) > _TOLD and seen[-1] > _SMALL * min(seen[:2]):
+        determinants.append(abs(point.determinant))
+        if len(determinants) > _ENOUGH and determinants[-1] > _SMALL * min(determinants[:2]):
             raise NoOrbitError("the determinant changes its sign, but not through zero")
         return point.determinant
 
     try:
-        found = located(curve, start, end, singular)
+        crossed = located(curve, start, end, singular)
     except NoOrbitError:
         return None
-    if found is None:
+    if crossed is None:
         return None
-    sizes = np.linalg.svd(curve.jacobian(found.z), compute_uv=False)
+    sizes = np.linalg.svd(curve.jacobian(crossed.z), compute_uv=False)
     # N singular values of N rows: the tangent's is not among them.
-    return found.z if sizes[-1] <= _SINGULAR * sizes[-2] else None
+    return crossed.z if sizes[-1] <= _SINGULAR * sizes[-2] else None

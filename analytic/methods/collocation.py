@@ -23,7 +23,7 @@ Residual = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 Linearization = Callable[[FloatArray, FloatArray, FloatArray], Tangent]
 
 OWN_TANGENT = Newton(converged=1e-13, slow=0.2, steps=12)
-"""Of coordinates of order 1."""
+"""Bound for coordinates of order 1."""
 
 
 class Collocation:
@@ -143,7 +143,7 @@ class Collocation:
             solve = partial(solved, factored(self.matrix(h, at), single=False))
             return (solve, at), at.residual.ravel()
 
-        found = newton.root(
+        root = newton.root(
             guess.ravel(),
             lambda z: residual(*state(z)).ravel(),
             linearized,
@@ -151,7 +151,7 @@ class Collocation:
             factors=None if near is None else (self.solver(h, near), near),
             solve=lambda factors, defect: factors[0](defect),
         )
-        return None if found is None else found._replace(z=found.z.reshape(guess.shape))
+        return None if root is None else root._replace(z=root.z.reshape(guess.shape))
 
 
 @lru_cache(maxsize=8)

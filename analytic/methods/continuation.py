@@ -127,11 +127,11 @@ class Path(Generic[S]):
         whole = step
         while step > min(self.longest / 2.0**self.care.halvings, 0.9 * whole):
             try:
-                found = self._stepped(last.amplitude + step)
+                orbit = self._stepped(last.amplitude + step)
             except NoOrbitError as failed:
                 reason, step = reason or str(failed), 0.5 * step
                 continue
-            self.nodes.append(found)
+            self.nodes.append(orbit)
             self._step = step if step < whole else math.inf
             return
         self._end = f"the last amplitude reached is {last.amplitude:.4g}, beyond which {reason}"

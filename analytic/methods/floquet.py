@@ -95,8 +95,8 @@ def floquet_multipliers(orbit: Any, modes: int = _COVERED) -> Multipliers:
     place = np.minimum(np.arange(frequencies.size), covered) @ energy
     order = np.argsort(place)[:kept]
     trivial = np.ones(0 if constants is None else 2)
-    found = np.concatenate((trivial, values[order])).astype(np.complex128)
-    return Multipliers(found, float(np.abs(values if stiff else found).max()))
+    all_values = np.concatenate((trivial, values[order])).astype(np.complex128)
+    return Multipliers(all_values, float(np.abs(values if stiff else all_values).max()))
 
 
 def reversible_monodromy(orbit: Any, signs: FloatArray, steps: int) -> tuple[FloatArray, float]:

@@ -180,10 +180,10 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
     z = np.append(packed(guess.coefficients, parts), guess.frequency)
     others = factors = tangent.factors if tangent.fits(z.size) else None
     for _ in range(_PEAKS):
-        found = _NEWTON.root(z, residual, linearized, size=size, factors=factors)
-        if found is None:
+        root = _NEWTON.root(z, residual, linearized, size=size, factors=factors)
+        if root is None:
             break
-        z, factors = found.z, found.factors
+        z, factors = root.z, root.factors
         crest = orbit(z).crest()
         if abs(crest.height - amplitude) < _SAME_PEAK * amplitude:
             return replace(orbit(z), amplitude=amplitude)
@@ -215,11 +215,11 @@ def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> f
         change = -unpacked(harmonics, moved.parts, moved.coefficients.shape)
         height = weights @ finer.gauge(moved.coordinates(peaks)[0])
         defects = np.append(-packed(change[:, kept], orbit.parts), height - orbit.amplitude)
-        known = -solved(tangent.factors, defects)
-        change[:, kept] = unpacked(known[:-1], orbit.parts, orbit.coefficients.shape)
+        change_of_all = -solved(tangent.factors, defects)
+        change[:, kept] = unpacked(change_of_all[:-1], orbit.parts, orbit.coefficients.shape)
         moved = replace(
             moved,
             coefficients=moved.coefficients + change,
-            frequency=moved.frequency + float(known[-1]),
+            frequency=moved.frequency + float(change_of_all[-1]),
         )
     return abs(moved.frequency / orbit.frequency - 1.0)

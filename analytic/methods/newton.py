@@ -87,7 +87,7 @@ class Newton:
         products : callable, optional
             Of z: the function that multiplies the tangent there with a vector (N,).
         """
-        last, own, tangents, steps = np.inf, False, 0, list[FloatArray]()
+        last, exact, tangents, steps = np.inf, False, 0, list[FloatArray]()
         anew = factors is None
         products = products if z.size > LARGE else None
         for count in range(1, self.steps + 1):
@@ -96,7 +96,7 @@ class Newton:
                 tangents += 1
                 if tangents > self.tangents:
                     return None
-                own, steps = True, []
+                exact, steps = True, []
                 if factors is not None and products is not None and last < _NEAR:
                     defect = residual(z)
                     change = by_products(products(z), factors, defect)
@@ -114,7 +114,7 @@ class Newton:
             z = z - change
             now = size(z, change)
             contraction = now / last if np.isfinite(last) else 1.0
-            stagnates = own and now < self.stagnates and contraction > self.slow
+            stagnates = exact and now < self.stagnates and contraction > self.slow
             if stagnates or now * min(1.0, contraction) < self.converged:
                 return Root(z, factors, count)
             if not now <= self.largest:

@@ -155,23 +155,23 @@ def response_curve(
     like = Orbit(system=system, frequency=first, coefficients=rest)
     care = _CARE._replace(tail=tail)
     curve = OrbitCurve(like, first, last - first, partial(refined, care=care))
-    found: list[Marked] = []
+    marked: list[Marked] = []
     try:
         at = _beginning(curve)
-        found.append((at.orbit, "asked"))
+        marked.append((at.orbit, "asked"))
         for here, there in at.followed(_FIRST_STEP, _LONGEST_STEP):
             between, over = _between(here, there, frequencies)
-            found += between
+            marked += between
             if over:
-                return found
+                return marked
             if there.orbit.amplitude > largest:
                 raise NoOrbitError(f"the amplitude exceeds {largest:g} there")
-            found.append((there.orbit, ""))
-            if len(found) >= _MOST_POINTS:
+            marked.append((there.orbit, ""))
+            if len(marked) >= _MOST_POINTS:
                 break
     except NoOrbitError as reason:
-        raise NoOrbitError(str(reason), found, reason.remedy) from None
-    raise NoOrbitError(f"the curve does not end within {_MOST_POINTS} points", found)
+        raise NoOrbitError(str(reason), marked, reason.remedy) from None
+    raise NoOrbitError(f"the curve does not end within {_MOST_POINTS} points", marked)
 
 
 def _beginning(curve: OrbitCurve[S]) -> At[S]:
@@ -196,10 +196,10 @@ def _beginning(curve: OrbitCurve[S]) -> At[S]:
 
 def _between(at: At[S], there: At[S], frequencies: FloatArray) -> tuple[list[Marked], bool]:
     """Return the special points between two points, in order, and whether the curve ends."""
-    curve, found = at.curve, list[tuple[float, Mark, FloatArray]]()
+    curve, between = at.curve, list[tuple[float, Mark, FloatArray]]()
 
     def note(mark: Mark, z: FloatArray) -> None:
-        found.append((float(at.point.tangent @ (z - at.point.z)), mark, z))
+        between.append((float(at.point.tangent @ (z - at.point.z)), mark, z))
 
     fold = at.fold(there)
     if fold is not None:
@@ -216,9 +216,9 @@ def _between(at: At[S], there: At[S], frequencies: FloatArray) -> tuple[list[Mar
                 point = _at_frequency(curve, one, other, float(value))
                 if point is not None:
                     note("asked", point.z)
-    found.sort(key=lambda item: item[0])
+    between.sort(key=lambda item: item[0])
     marked, over = list[Marked](), False
-    for _, mark, z in found:
+    for _, mark, z in between:
         marked.append((curve.orbit(z), mark))
         if mark == "asked" and not 1e-9 <= z[-1] <= 1.0 - 1e-9:
             over = True

@@ -38,7 +38,7 @@ from numpy.typing import NDArray
 from ..arrays import ComplexArray, FloatArray
 from ..lazily import linalg
 from ..methods.fourier import period
-from ..settled import FoundT, settled
+from ..settled import ResultT, settled
 from ..shape_functions import BladeFunctions, blade_functions
 from ..unit_blade import UnitBlade
 from .oscillator import Oscillator
@@ -57,13 +57,13 @@ _HARMONICS = 3
 
 
 def _settled(
-    solve: Callable[[int], FoundT],
+    solve: Callable[[int], ResultT],
     blade: UnitBlade,
     w_bar: float,
     tolerance: float,
-    of: Callable[[FoundT], tuple[float, ...]],
+    of: Callable[[ResultT], tuple[float, ...]],
     name: str,
-) -> FoundT:
+) -> ResultT:
     """Return what `solve` finds with the first number of functions that settles its numbers."""
     fewest = min(max(_FEWEST, _A_ROOT * math.sqrt(w_bar)), 2 * _MOST / 3)
     panels = blade.panel_count
@@ -89,7 +89,7 @@ def blade_oscillator(blade: UnitBlade, w_bar: float, coriolis: bool) -> BladeOsc
         blade,
         w_bar,
         _SETTLED[0],
-        lambda found: (math.log(found.oscillator.w_n), found.oscillator.lambda_omega),
+        lambda solution: (math.log(solution.oscillator.w_n), solution.oscillator.lambda_omega),
         "the first mode",
     )
 
@@ -148,7 +148,7 @@ def normal_mode(blade: UnitBlade, w_bar: float) -> NormalMode:
         blade,
         w_bar,
         _SETTLED[1],
-        lambda found: (found.lambda_omega, found.kappa_of_peak),
+        lambda mode: (mode.lambda_omega, mode.kappa_of_peak),
         "the nonlinear normal mode",
     )
 
@@ -200,10 +200,10 @@ class _VirtualWork:
         angle, first, second = (wave @ theta @ of.slope.T for wave in self._waves)
         at = turn(angle)
         # z̈' and 2iw̄c ż' over exp(iθ), and the centrifugal force of z' itself.
-        own = 1j * product(square, second) - product(square, product(first, first))
-        own -= 2.0 * self._w_bar * c * product(rate, first)
+        inertia = 1j * product(square, second) - product(square, product(first, first))
+        inertia -= 2.0 * self._w_bar * c * product(rate, first)
         centrifugal = self._w_bar**2 * (at.real + 1j * c**2 * at.imag)
-        beyond = (product(at, own) - centrifugal) @ self._green
+        beyond = (product(at, inertia) - centrifugal) @ self._green
         beyond[0] -= self._hub
         work = product(at.conj(), beyond)[k].imag @ of.slope
         work += product(square, self._waves[2] @ theta)[k] @ of.turning

@@ -114,18 +114,18 @@ def linear_response(
         force = -(acceleration / scale**2) * lever - (bending + rate**2 * rotation) @ q
         return np.concatenate((q_dot, force))
 
-    asked, back = np.unique(scale * time, return_inverse=True)
+    instants, back = np.unique(scale * time, return_inverse=True)
     with np.errstate(over="ignore", invalid="ignore"):
-        found = integrate.solve_ivp(
-            derivative, (0.0, asked[-1] or 1.0), np.zeros(2 * _MODES), t_eval=asked,
+        solution = integrate.solve_ivp(
+            derivative, (0.0, instants[-1] or 1.0), np.zeros(2 * _MODES), t_eval=instants,
             method="DOP853", rtol=_TOLERANCE, atol=1e-3 * _TOLERANCE,
         )  # fmt: skip
-    if not found.success or not np.isfinite(found.y).all():
+    if not solution.success or not np.isfinite(solution.y).all():
         raise RuntimeError(
             f"the linear model's deflection grows beyond all numbers before t = {time[-1]:g} s: "
             "ask for earlier times"
         )
-    coordinates = found.y[:_MODES, back].T
+    coordinates = solution.y[:_MODES, back].T
     across = coordinates @ (of.across.twice(along) @ modes).T
     places = along, unit.setting * across, math.sin(unit.angle) * across
     axis = np.stack(np.broadcast_arrays(*places), axis=-1)

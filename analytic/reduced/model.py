@@ -116,8 +116,8 @@ class ReducedModel:
         """
         series = Perturbation(lambda_omega=self.lambda_omega, kappa=self.kappa)
         amplitude = self._within(a, series.largest_amplitude, "Eq. 63 has no frequency")
-        found: NumbersT = lone_as_float(self.omega_n * series.ratio(amplitude))
-        return found
+        frequency: NumbersT = lone_as_float(self.omega_n * series.ratio(amplitude))
+        return frequency
 
     def first_harmonic(self, peak: ArrayLike) -> FloatArray:
         """Return the first harmonic of q/L whose `response` has the `peak`, of its shape."""
@@ -132,8 +132,8 @@ class ReducedModel:
         largest = self.oscillator.largest_amplitude
         amplitude = self._within(a, largest, "Eq. 41 has no periodic orbit")
         exact = self.oscillator.exact_frequency(amplitude)
-        found: NumbersT = lone_as_float(self.blade.frequency_scale * exact)
-        return found
+        frequency: NumbersT = lone_as_float(self.blade.frequency_scale * exact)
+        return frequency
 
     def response(self, t: ArrayLike, a0: float, phase: float = 0.0) -> FloatArray:
         """Return x(t) = q/L of Eq. 65, of the shape of `t`; of FrM with its second harmonic.

@@ -161,12 +161,12 @@ def _table_5() -> PaperTable:
     rows = []
     for at, printed in _printed("table_5").items():
         model = reduced_model(Beam.reference(), float(at), "FrE")
-        found = {"ω_n [rad/s]": model.omega_n, "λ_ω": model.lambda_omega, "λ_x": model.lambda_x}
+        derived = {"ω_n [rad/s]": model.omega_n, "λ_ω": model.lambda_omega, "λ_x": model.lambda_x}
         # With both, and ω_n² over (1.8751/β)⁴, 8 of the 12 entries agree within the rounding.
         note = f"the print used degree 36 and, most likely, β = {PRINTED_BETA}"
         rows += [
             _decimal_row(f"{name} at {float(at):g} rad/s", text, value, note)
-            for (name, value), text in zip(found.items(), printed, strict=True)
+            for (name, value), text in zip(derived.items(), printed, strict=True)
         ]
     return PaperTable(number=5, title="rotating mode with elongation (FrE)", rows=tuple(rows))
 

@@ -93,8 +93,8 @@ class _Task:
     def exact(self, y: FloatArray) -> tuple[ComplexArray, float]:
         """Return the same by the exact transient, and the blade's largest |q|/L on the way."""
         ramp = self.ramp(y)
-        found = [exact_residuals(blade, ramp, self.count) for blade, _ in self.blades]
-        return self._derived([left for left, _ in found]), found[0][1]
+        residuals = [exact_residuals(blade, ramp, self.count) for blade, _ in self.blades]
+        return self._derived([left for left, _ in residuals]), residuals[0][1]
 
     def swing(self, y: FloatArray) -> FloatArray:
         """Return q/L at places of the ramp by the closed form."""
@@ -225,10 +225,10 @@ def _corrected(task: _Task) -> FourierRamp:
     # Broyden's method, from a Jacobian of one: the closed form misses by the same all around.
     inverse, last = np.eye(2 * target.size), None
     for _ in range(_CORRECTIONS):
-        found = _solved(aim, y, target)
-        if found is None:
+        solution = _solved(aim, y, target)
+        if solution is None:
             raise ValueError(_too_short(task))
-        y = found
+        y = solution
         left, way = task.exact(y)
         size = float(np.abs(left).max())
         if size < _LEFT and way <= task.largest:
@@ -295,10 +295,10 @@ def _too_short(task: _Task) -> str:
     if math.isfinite(task.largest):
         limits = f"{limits} with a deflection of at most {task.largest:g} of the length"
     what = f"{task.count} modes at rest{f' with robust = {task.robust}' if task.robust else ''}"
-    asked = f"no ramp of {task.duration:g} s leaves {what} within {limits}"
+    missed = f"no ramp of {task.duration:g} s leaves {what} within {limits}"
     still = np.zeros_like(task.closed_form(task.eq_1))
     for n in range(1, _LONGEST):
         longer = replace(task, duration=float(f"{task.duration * _LONGER**n:.3g}"))
         if _solved(longer, longer.eq_1, still) is not None:
-            return f"{asked}: take a duration of {longer.duration:g} s, or wider limits"
-    return f"{asked}: take wider limits, or fewer modes"
+            return f"{missed}: take a duration of {longer.duration:g} s, or wider limits"
+    return f"{missed}: take wider limits, or fewer modes"

@@ -20,7 +20,7 @@ _A_PERIOD = 40  # ramp times tried by the formula
 _PERIODS = 5.0
 _REFINEMENTS, _SETTLED = 6, 1e-4
 """And the share of a period by which the last one moves the minimum at most."""
-_FOUND = 1e-8 * _A_PERIOD  # of the spacing, of which a period has so many
+_PRECISE = 1e-8 * _A_PERIOD  # of the spacing, of which a period has so many
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,11 +89,11 @@ def quiet_ramp_times(
     spacing = 2.0 * math.pi / (_A_PERIOD * frequency * blade.frequency_scale)
     tried = np.arange(0.5 * period, longest + spacing, spacing)
     sizes = np.abs(residuals(blade, unit, modes, tried)[0])
-    found = [
+    candidates = [
         _refined(blade, unit, modes, tried[k], spacing, tolerance)
         for k in signal.argrelmin(sizes)[0]
     ]
-    ramp_times, left = np.array([one for one in found if one[0] <= longest]).reshape(-1, 2).T
+    ramp_times, left = np.array([one for one in candidates if one[0] <= longest]).reshape(-1, 2).T
     return QuietRamps(
         blade=blade,
         omega=omega,
@@ -130,7 +130,7 @@ def _refined(
             left,
             args=(T, lack, slope),
             bounds=(T - 2.0 * spacing, T + 2.0 * spacing),
-            options={"xatol": _FOUND * spacing},
+            options={"xatol": _PRECISE * spacing},
         )
         moved = float(least.x) - T
         if abs(moved) <= _SETTLED * _A_PERIOD * spacing:

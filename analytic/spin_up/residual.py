@@ -223,18 +223,18 @@ def _waves(
     blade: Blade, spin_up: SpeedChange, modes: ModesOverSpeed, longest: float, even: int = 1
 ) -> _Waves:
     """Return the modes along a motion that takes `longest` [s], in a multiple of `even` pieces."""
-    scale, own = blade.frequency_scale, spin_up.ramp_time
+    scale, ramp_time = blade.frequency_scale, spin_up.ramp_time
     fast = float(modes.at(np.array([spin_up.fastest / scale])).frequency.max())
     pieces = math.ceil(fast * scale * longest / _A_PANEL)
-    pieces = max(pieces, math.ceil(own / spin_up.shortest_wave))
+    pieces = max(pieces, math.ceil(ramp_time / spin_up.shortest_wave))
     pieces = even * math.ceil(pieces / even)
-    edges = np.union1d(spin_up.corners / own, np.linspace(0.0, 1.0, pieces + 1))
+    edges = np.union1d(spin_up.corners / ramp_time, np.linspace(0.0, 1.0, pieces + 1))
     x, weights = gauss_points(_POINTS)
     width = np.diff(edges)[:, None]
     s = (edges[:-1, None] + width * x).ravel()
-    at = modes.at(spin_up.rate(own * s) / scale)
-    end = modes.at(spin_up.rate(own * edges) / scale)
-    euler = spin_up.acceleration(own * s) * (own / scale) * (width * weights).ravel()
+    at = modes.at(spin_up.rate(ramp_time * s) / scale)
+    end = modes.at(spin_up.rate(ramp_time * edges) / scale)
+    euler = spin_up.acceleration(ramp_time * s) * (ramp_time / scale) * (width * weights).ravel()
     # Phase and decay over T, from s to the end.
     wave = (1j * at.frequency - at.decay).reshape(at.frequency.shape[0], -1, _POINTS)
     whole = width[:, 0] * (wave @ weights)
@@ -278,8 +278,8 @@ def exact_residuals(
     wave = np.exp(np.outer(after, 1j * omegas - decay[:, 0] * blade.frequency_scale))
     shares = np.concatenate((-wave.imag, -wave.real), axis=1)
     q = response.q / blade.length
-    found = np.linalg.lstsq(shares, q[during.size :], rcond=None)[0]
-    left = np.asarray(found[:count] + 1j * found[count + 1 : -1])
+    fitted = np.linalg.lstsq(shares, q[during.size :], rcond=None)[0]
+    left = np.asarray(fitted[:count] + 1j * fitted[count + 1 : -1])
     return left, float(np.abs(q[: during.size]).max())
 
 

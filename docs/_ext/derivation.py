@@ -45,11 +45,11 @@ def imports_of(name: str, known: dict[str, Path]) -> Iterator[str]:
 
 
 def in_order(*packages: str, without: Iterable[str] = ()) -> list[str]:
-    """Return the modules of the packages, room by room, each after those it imports."""
+    """Return the modules of the packages, package by package, each after those it imports."""
     known = modules(*packages)
     left_out = tuple(without)
 
-    def room(name: str) -> str:
+    def group(name: str) -> str:
         depth = max(package.count(".") for package in packages if name.startswith(package)) + 2
         return ".".join(name.split(".")[:depth])
 
@@ -62,14 +62,14 @@ def in_order(*packages: str, without: Iterable[str] = ()) -> list[str]:
         }
         for name in known
     }
-    rooms: dict[str, set[str]] = {}
+    groups: dict[str, set[str]] = {}
     for name, targets in arrows.items():
-        rooms.setdefault(room(name), set()).update(room(t) for t in targets)
+        groups.setdefault(group(name), set()).update(group(t) for t in targets)
     return [
         name
-        for place in _sorted({r: below - {r} for r, below in rooms.items()})
+        for place in _sorted({r: below - {r} for r, below in groups.items()})
         for name in _sorted(
-            {n: {t for t in arrows[n] if room(t) == place} for n in known if room(n) == place}
+            {n: {t for t in arrows[n] if group(t) == place} for n in known if group(n) == place}
         )
         if not name.startswith(left_out or "\0")
     ]

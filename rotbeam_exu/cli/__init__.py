@@ -102,8 +102,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(UNREAD)
         except (Exception, KeyboardInterrupt) as error:
-            told = isinstance(error, KeyboardInterrupt) or not met
-            text, code = _ending(error if told else KeyboardInterrupt())
+            is_end = isinstance(error, KeyboardInterrupt) or not met
+            text, code = _ending(error if is_end else KeyboardInterrupt())
             print_message("rotbeam:", "red", text)
             sys.exit(code)
 

@@ -72,17 +72,17 @@ def backbone(
     blade, omega, theory = request.blade, request.omega, request.theory
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
-    told = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
-    if told:
+    variants = list(analytic.VARIANTS) if all_variants else [variant] if variant else []
+    if variants:
         require_planar(
             blade, "the reduced models are of", "the exact backbone: leave the variants out"
         )
-    names = told or (["FrM"] if mode == "lag 1" and blade.is_planar else [])
-    exact = exact or not told
+    names = variants or (["FrM"] if mode == "lag 1" and blade.is_planar else [])
+    exact = exact or not variants
     if theory != analytic.Theory() and not exact:
         raise ValueError(f"{theory} is a theory of the exact beam: add --exact")
     models, refused = _reduced(blade, omega, names)
-    if told and not models:
+    if variants and not models:
         raise ValueError("; ".join(_grouped(refused)))
     orbits, failure = None, ""
     if exact:
@@ -147,7 +147,7 @@ def _frequencies(
 ) -> dict[str, list[Any]]:
     """Return the columns of the models, and add to `refused` why some have no number."""
 
-    def found(frequency: Callable[[Any], Any], a: float, name: str) -> float:
+    def number(frequency: Callable[[Any], Any], a: float, name: str) -> float:
         try:
             return float(frequency(a))
         except ValueError as error:
@@ -158,7 +158,7 @@ def _frequencies(
     for model in models:
         name = model.variant.name
         for a in amplitude:
-            both = [found(one, a, name) for one in (model.frequency, model.exact_frequency)]
+            both = [number(one, a, name) for one in (model.frequency, model.exact_frequency)]
             rows.append((name, a, *both, both[0] / model.omega_n))
     titles = "variant", "amplitude a/L", "Eq. 63 [rad/s]", "Eq. 41 exactly [rad/s]", "Eq. 63 / ω_n"
     columns = map(list, zip(*rows, strict=True))
@@ -166,14 +166,14 @@ def _frequencies(
 
 
 def _exact_columns(orbits: Orbits, amplitude: list[float], models: int) -> dict[str, list[float]]:
-    found = [
+    frequencies = [
         orbits.frequency[near[0]] if near.size else math.nan
         for a in amplitude
         for near in [np.flatnonzero(np.isclose(orbits.amplitude, a, rtol=1e-6))]
     ]
-    columns = {"exact beam [rad/s]": found * max(models, 1)}
+    columns = {"exact beam [rad/s]": frequencies * max(models, 1)}
     if not models:
-        columns["exact/ω_n"] = [frequency / orbits.omega_n for frequency in found]
+        columns["exact/ω_n"] = [frequency / orbits.omega_n for frequency in frequencies]
     return columns
 
 
@@ -187,8 +187,8 @@ def _print_coefficients(models: list[ReducedModel], orbits: Orbits | None, omega
     ):  # fmt: skip
         columns[title] = [format(getattr(model, name), form) for model in models]
         if orbits is not None:
-            known = name in ("omega_n", "lambda_omega")
-            columns[title].append(format(getattr(orbits, name), form) if known else "-")
+            of_any_mode = name in ("omega_n", "lambda_omega")
+            columns[title].append(format(getattr(orbits, name), form) if of_any_mode else "-")
     if orbits is not None:
         columns["variant"].append("exact")
     columns["κ"] = [kappa if kappa.strip("0.") else "-" for kappa in columns["κ"]]

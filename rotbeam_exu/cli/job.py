@@ -29,8 +29,8 @@ def telling_what_is_kept(kept: Callable[[], str]) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt as interrupt:
-        told = [str(interrupt)] if interrupt.args else []  # by a part of the work inside this one
-        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *told]))) from None
+        inner = [str(interrupt)] if interrupt.args else []  # of a part of the work inside
+        raise KeyboardInterrupt("; ".join(filter(None, [kept(), *inner]))) from None
 
 
 @Parameter(name="*")

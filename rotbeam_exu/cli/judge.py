@@ -118,18 +118,18 @@ def _judge(
 ) -> bool | None:  # fmt: skip
     """Judge, print and write; return whether all is right, None where something is undecided."""
     with bar("judging") as drawn:
-        found = judged(
+        judgement = judged(
             submission, only=only, progress=lambda name, n, of: drawn(n, of, f"judging {name}")
         )
         mistakes = mistakes_in(
-            submission, found, lambda name, n, of: drawn(n, of, f"usual mistakes in {name}")
+            submission, judgement, lambda name, n, of: drawn(n, of, f"usual mistakes in {name}")
         )
     _print_mistakes(mistakes)
-    print_judgements([found], f"benchmark {VERSION}")
-    for source in dict.fromkeys(found.sources.values()):
+    print_judgements([judgement], f"benchmark {VERSION}")
+    for source in dict.fromkeys(judgement.sources.values()):
         print_note(f"reference: {source}")
     record = Record(
-        submission=submission, judgement=found, mistakes=tuple(mistakes),
+        submission=submission, judgement=judgement, mistakes=tuple(mistakes),
         digests=digests(folder, submission), faults=tuple(faults),
     )  # fmt: skip
     if report is not None:
@@ -138,7 +138,7 @@ def _judge(
     if json is not None:
         write_text(dumps(document(record), indent=1, ensure_ascii=False) + "\n", json)
         print_written([json])
-    return found.passed
+    return judgement.passed
 
 
 def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
@@ -173,32 +173,36 @@ def verify(request: Request, *, element: list[str] | None = None) -> None:
     from ..verification.entries import entries_at_hand, formulation_entry
     from ..verification.verify import verify as verification_of
 
-    own = [formulation_entry(element_of(name)) for name in element or ()]
+    entries_of_user = [formulation_entry(element_of(name)) for name in element or ()]
     motion = request.motion
-    entries, mine = own or entries_at_hand(), dict[str, Any]()
+    entries, mine = entries_of_user or entries_at_hand(), dict[str, Any]()
     if request.config:
         remedy = "rotbeam reference, which is exact in space"
         require_planar(request.blade, "verify has references of", remedy)
         entries = [replace(entry, step=motion.step) for entry in entries]
         mine = {"blade": request.blade, "spin_up": motion.spin_up}
-    found = []
+    judgements = []
     with counter("verifying") as progress:
         for entry in entries:
-            found.append(verification_of(entry, duration=motion.duration, **mine))
-            progress(len(found), len(entries))
-    of_own = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
-    print_judgements(found, of_own if request.config else "the paper's beam")
+            judgements.append(verification_of(entry, duration=motion.duration, **mine))
+            progress(len(judgements), len(entries))
+    about = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
+    print_judgements(judgements, about if request.config else "the paper's beam")
 
 
-def print_judgements(found: Sequence[Judgement], about: str) -> None:
+def print_judgements(judgements: Sequence[Judgement], about: str) -> None:
     """Print the limits of codes less the reference, their discretization, and the outcomes."""
-    keys = list(dict.fromkeys(key for one in found for key in one.by_quantity))
-    known = {key: [one.by_quantity[key] for one in found if key in one.by_quantity] for key in keys}
-    asked = {
+    keys = list(dict.fromkeys(key for one in judgements for key in one.by_quantity))
+    findings = {
+        key: [one.by_quantity[key] for one in judgements if key in one.by_quantity] for key in keys
+    }
+    of_quantity = {
         "quantity": [f"{case} {_SHORT[quantity]}" for case, quantity in keys],
         "at most": [f"{THRESHOLDS[quantity]:g}" for _, quantity in keys],
-        "floor": [_largest(one.runs.noise[-1] for one in known[key] if one.runs) for key in keys],
-        "ref ±": [_largest(one.bound for one in known[key]) for key in keys],
+        "floor": [
+            _largest(one.runs.noise[-1] for one in findings[key] if one.runs) for key in keys
+        ],
+        "ref ±": [_largest(one.bound for one in findings[key]) for key in keys],
     }
 
     def of_each(cell: Callable[[Finding], str]) -> dict[str, list[str]]:
@@ -206,50 +210,52 @@ def print_judgements(found: Sequence[Judgement], about: str) -> None:
             one.declaration.code: [
                 cell(one.by_quantity[key]) if key in one.by_quantity else "-" for key in keys
             ]
-            for one in found
+            for one in judgements
         }
 
-    print_columns(asked | of_each(_limit), title=f"Limits of the codes less the reference; {about}")
+    print_columns(
+        of_quantity | of_each(_limit), title=f"Limits of the codes less the reference; {about}"
+    )
     print_note(
         "! fails, ? is undecided; floor: resolution of the measurement; ref ±: uncertainty of the "
         "reference, in the shift also that of the code's own ω_n"
     )
-    bars = {"quantity": asked["quantity"]} | of_each(_discretization)
+    bars = {"quantity": of_quantity["quantity"]} | of_each(_discretization)
     print_columns(
         bars, title="Discretization error: finest run less its own limit, ± uncertainty of that"
     )
     print_columns(
         {
-            "code": [one.declaration.code for one in found],
-            "theory": [one.declaration.theory.name for one in found],
-            "mesh": [_finest(one, lambda run: str(run.elements)) for one in found],
-            "h": [_finest(one, lambda run: run.step_in_words) for one in found],
-            "order l": [_order(one, "mesh") for one in found],
-            "order h": [_order(one, "step") for one in found],
+            "code": [one.declaration.code for one in judgements],
+            "theory": [one.declaration.theory.name for one in judgements],
+            "mesh": [_finest(one, lambda run: str(run.elements)) for one in judgements],
+            "h": [_finest(one, lambda run: run.step_in_words) for one in judgements],
+            "order l": [_order(one, "mesh") for one in judgements],
+            "order h": [_order(one, "step") for one in judgements],
         }
-        | _times(found)
-        | {"outcome": [one.outcome for one in found]},
+        | _times(judgements)
+        | {"outcome": [one.outcome for one in judgements]},
         title="Orders of q(t), observed of declared, and the finest run of the first history",
     )
-    for one in found:
+    for one in judgements:
         for sentence in _sentences(one):
             print_note(f"{one.declaration.code}: {sentence}")
 
 
-def _limit(found: Finding) -> str:
+def _limit(finding: Finding) -> str:
     """Return the model difference, marked where it decides against the code or decides nothing."""
-    if found.outcome is Outcome.NOT_SUBMITTED:
+    if finding.outcome is Outcome.NOT_SUBMITTED:
         return "-"
-    if not math.isfinite(found.model_difference):
-        return "none!" if found.outcome is Outcome.DIFFERS else "none?"
-    mark = {True: "", False: "!", None: "?"}[found.outcome.passed]
-    return f"{found.model_difference:+.0e}{mark}"
+    if not math.isfinite(finding.model_difference):
+        return "none!" if finding.outcome is Outcome.DIFFERS else "none?"
+    mark = {True: "", False: "!", None: "?"}[finding.outcome.passed]
+    return f"{finding.model_difference:+.0e}{mark}"
 
 
-def _discretization(found: Finding) -> str:
-    if found.runs is None or not math.isfinite(found.runs.limit):
+def _discretization(finding: Finding) -> str:
+    if finding.runs is None or not math.isfinite(finding.runs.limit):
         return "-"
-    return f"{found.runs.errors[-1]:+.0e} ±{found.runs.bar:.0e}"
+    return f"{finding.runs.errors[-1]:+.0e} ±{finding.runs.bar:.0e}"
 
 
 def _largest(values: Iterable[float]) -> str:
@@ -262,9 +268,11 @@ def _finest(one: Judgement, cell: Callable[[Run], str]) -> str:
     return cell(next(iter(one.histories.values())).finest) if one.histories else "-"
 
 
-def _times(found: Sequence[Judgement]) -> dict[str, list[str]]:
+def _times(judgements: Sequence[Judgement]) -> dict[str, list[str]]:
     """Return the column of times on the clock, or else of the processor; none if none is known."""
-    runs = [next(iter(one.histories.values())).finest if one.histories else None for one in found]
+    runs = [
+        next(iter(one.histories.values())).finest if one.histories else None for one in judgements
+    ]
     for name in ("wall", "cpu"):
         times = [getattr(run, name, math.nan) for run in runs]
         if not all(map(math.isnan, times)):
@@ -280,13 +288,13 @@ def _order(one: Judgement, name: str) -> str:
     return f"{order}{'!' if order.low else ''}"
 
 
-def _sentences(found: Judgement) -> list[str]:
+def _sentences(judgement: Judgement) -> list[str]:
     """Return what differs, what would decide, and runs left out; each sentence once."""
     said = [
         f"{finding.said}: {finding.note}" if finding.note else f"{case} {quantity} {finding.said}"
-        for (case, quantity), finding in found.by_quantity.items()
+        for (case, quantity), finding in judgement.by_quantity.items()
         if finding.outcome is not Outcome.REFERENCE
     ]
-    said += [f"{case}: {one}" for case, of in found.remarks.items() for one in of]
-    remarks = [run.remark for one in found.histories.values() for run in one.runs if run.remark]
+    said += [f"{case}: {one}" for case, of in judgement.remarks.items() for one in of]
+    remarks = [run.remark for one in judgement.histories.values() for run in one.runs if run.remark]
     return list(dict.fromkeys([*said, *remarks]))

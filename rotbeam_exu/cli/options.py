@@ -69,11 +69,11 @@ Amplitudes = Annotated[
 NoFigure = Annotated[Flag, Parameter(name="--no-figure", help="Write data, but no figure.")]
 
 
-def numbered(what: str, text: str, known: Sequence[int]) -> Sequence[int]:
+def numbered(what: str, text: str, numbers: Sequence[int]) -> Sequence[int]:
     """Return the number in a text, or all that are known."""
     if text.lower() == "all":
-        return known
-    by_name = {str(number): number for number in known}
+        return numbers
+    by_name = {str(number): number for number in numbers}
     if text in by_name:
         return [by_name[text]]
     raise ValueError(f"there is no {what} {text!r}: it must be {', '.join(by_name)} or all")

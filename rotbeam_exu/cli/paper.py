@@ -141,8 +141,8 @@ def compare(
             ),
             "budget_models": models,
         }  # fmt: skip
-    for name, found in data.items():
-        results.job(name, found.assign_attrs(mine))
+    for name, dataset in data.items():
+        results.job(name, dataset.assign_attrs(mine))
     _print_models(models, amplitude)
 
 

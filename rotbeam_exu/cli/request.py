@@ -139,9 +139,9 @@ def uses(*names: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
             mine = {word: arguments.pop(word) for word in words if word in arguments}
             command(_request(config, _configured(config, keys), mine), **arguments)
 
-        own = inspect.signature(command)
-        _, *others = own.parameters.values()
-        signature = own.replace(parameters=[*options, *others])
+        of_command = inspect.signature(command)
+        _, *others = of_command.parameters.values()
+        signature = of_command.replace(parameters=[*options, *others])
         vars(with_request)["__signature__"] = signature
         with_request.__annotations__ = {n: of.annotation for n, of in signature.parameters.items()}
         return with_request
@@ -180,14 +180,14 @@ def _request(config: Path | None, file: RunFile, arguments: Mapping[str, Any]) -
 def _theory(pairs: Sequence[str]) -> dict[str, Any]:
     """Return the arguments of a `Theory` in the pairs of --theory, which are lines of TOML."""
     try:
-        told = tomllib.loads("\n".join(pairs))
+        values = tomllib.loads("\n".join(pairs))
     except tomllib.TOMLDecodeError as error:
         raise ValueError(
             f"--theory takes key=value as in a file, as trapeze=false shear=0.3, got "
             f"{' '.join(pairs)!r}: {error}"
         ) from error
-    require_keys(told, THEORY, "--theory")
-    return told
+    require_keys(values, THEORY, "--theory")
+    return values
 
 
 def _configured(config: Path | None, uses: Sequence[str]) -> RunFile:

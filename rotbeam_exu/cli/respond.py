@@ -57,8 +57,11 @@ def respond(
     from ..datasets import response_inputs
 
     load, blade = one_of(request.loads), request.blade
-    told = {"damping_ratio", "external_damping"} & request.options.keys()  # perhaps as zero
-    if not told and not any(blade.unit.damping):
+    damping_given = {
+        "damping_ratio",
+        "external_damping",
+    } & request.options.keys()  # perhaps as zero
+    if not damping_given and not any(blade.unit.damping):
         raise ValueError(
             "the blade is undamped, and at resonance its response has no end: give "
             "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"
@@ -97,7 +100,7 @@ def respond(
     )  # fmt: skip
 
 
-def _print(found: ForcedResponse, data: xr.Dataset) -> None:
+def _print(response: ForcedResponse, data: xr.Dataset) -> None:
     marks = data["mark"].to_numpy()
     (shown,) = np.nonzero(marks)
     frequency = data["frequency"].attrs["long_name"].split()[-1]
@@ -114,7 +117,7 @@ def _print(found: ForcedResponse, data: xr.Dataset) -> None:
                 for i in shown
             ],
         },
-        title=str(found),
+        title=str(response),
     )
     if "planar" in data.attrs:
         print_text(f"{data.attrs['planar']}.")

@@ -76,17 +76,17 @@ def run(
         except ValueError as error:  # as of a window that is too short
             raise RuntimeError(f"{error}; the run itself is in {results.out / name}.nc") from error
         with bar("exact frequencies"):
-            found = assess(case, steady, exact=not no_exact)
+            assessment = assess(case, steady, exact=not no_exact)
         _print_inputs(case, request.values["element"], chosen)
-        _print_results(data, steady, found)
-        return found
+        _print_results(data, steady, assessment)
+        return assessment
 
-    found = results.job(
+    assessment = results.job(
         name, case.describe(), computed, shown,
         table=lambda data: data.drop_dims("station", errors="ignore"),
         draw=None if no_figure else lambda figures, data: figures.spin_up(data),
     )  # fmt: skip
-    for sentence in found.warnings(case.elements, case.step):
+    for sentence in assessment.warnings(case.elements, case.step):
         warn(sentence)
 
 
@@ -109,7 +109,7 @@ def _print_inputs(case: RunCase, element: str, chosen: str) -> None:
     print_line("discretization", f"{case.elements} × {element}; {numerics}")
 
 
-def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessment) -> None:
+def _print_results(data: xr.Dataset, steady: SteadyOscillation, assessment: Assessment) -> None:
     """Print measurements, compared with the exact beam, and checks."""
     worst = max(
         float(abs(data["direction_residual"]).max()),
@@ -118,7 +118,7 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
     drift, ripple = energy_drift(data)
     about = [name for name in data.data_vars if str(name).startswith("root_moment_")]
     largest = float((data[about].to_array() ** 2).sum("variable").max()) ** 0.5
-    print_line("natural frequency", f"ω_n = {found.omega_n:.6f} rad/s (mesh, steady rotation)")
+    print_line("natural frequency", f"ω_n = {assessment.omega_n:.6f} rad/s (mesh, steady rotation)")
     print_line(
         "steady amplitude",
         f"{steady.amplitude:.5f} L half peak to peak, first harmonic {steady.first_harmonic:.5f} L",
@@ -126,16 +126,16 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, found: Assessmen
     print_line(
         "steady frequency",
         f"ω_NL = {steady.frequency:.6f} rad/s over {steady.cycles} cycles, "
-        f"ω_NL/ω_n = {steady.frequency / found.omega_n:.6f}; "
+        f"ω_NL/ω_n = {steady.frequency / assessment.omega_n:.6f}; "
         f"± {steady.frequency_error:.1g} rad/s (fit only; mesh and step not included)",
     )
-    for title, text in found.lines():
+    for title, text in assessment.lines():
         print_line(title, text)
     print_line("largest root moment", f"{largest:.6g} N m")
     print_line("constraint residual", f"{worst:.2g} (worst)")
     print_line("energy drift", f"{drift:.2g}, ripple {ripple:.2g} of the largest elastic energy")
     print_line("wall time", f"{data.attrs['wall_time']:.2f} s")
-    print_line("verdict", found.sentence)
+    print_line("verdict", assessment.sentence)
 
 
 @uses("speed", "ramp_time", "duration", "theory")

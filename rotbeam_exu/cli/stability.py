@@ -77,33 +77,33 @@ def stability(
             orbits = analytic.periodic_orbits(
                 undamped(blade), omega, amplitudes, mode, theory=request.theory
             )
-            found = orbits.out_of_plane(damping_ratio, blade_damping=blade.damping)
-        return found, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
+            growth = orbits.out_of_plane(damping_ratio, blade_damping=blade.damping)
+        return growth, limit, xr.Dataset(attrs={**inputs, "sentence": str(limit)})
 
     results.job(
         f"stability-{request.section}-omega-{omega:g}-{mode.replace(' ', '-')}", inputs, computed,
-        lambda found, _: _print(*found[:2]),
+        lambda results, _: _print(*results[:2]),
         table=lambda data: parts(data)["growth_rate"],
         draw=lambda figures, data: figures.planar_stability(data),
     )  # fmt: skip
 
 
-def _print(found: GrowthOutOfPlane, limit: StabilityLimit) -> None:
+def _print(growth: GrowthOutOfPlane, limit: StabilityLimit) -> None:
     print_text(f"{limit}.")
-    rate = np.where(found.growth_rate == 0.0, np.nan, found.growth_rate)
+    rate = np.where(growth.growth_rate == 0.0, np.nan, growth.growth_rate)
     print_columns(
         {
-            "|q|/L": formatted(found.amplitude, "g"),
+            "|q|/L": formatted(growth.amplitude, "g"),
             "growth [1/s]": [
                 f"{text}{'' if sure else '!'}"
-                for text, sure in zip(formatted(rate, ".4g"), found.converged, strict=True)
+                for text, sure in zip(formatted(rate, ".4g"), growth.converged, strict=True)
             ],
-            "e-fold [periods]": formatted(found.frequency / (2.0 * math.pi * rate), ".3g"),
-            "how": list(found.kind),
-            "what": [" and ".join(modes) for modes in found.modes],
+            "e-fold [periods]": formatted(growth.frequency / (2.0 * math.pi * rate), ".3g"),
+            "how": list(growth.kind),
+            "what": [" and ".join(modes) for modes in growth.modes],
         },
     )
-    if not np.all(found.converged):
+    if not np.all(growth.converged):
         print_text("! not confirmed within 1 % by more functions and steps")
     if not limit.tongues:
         return

@@ -97,11 +97,11 @@ def _print(result: xr.Dataset, _: xr.Dataset) -> int:
         "ω_NL/ω_n": rows["frequency"] / rows["omega_n"],
         "equations": rows["verdict"].replace("passed", "solved"),
     }
-    known = result.attrs
+    attrs = result.attrs
     print_columns(
         {title: list(values) for title, values in columns.items()},
-        title=f"{known['elements']} {known['element']} elements, {known['frame']} frame, "
-        f"step {known['step']:g} s, to {known['duration']:g} s",
+        title=f"{attrs['elements']} {attrs['element']} elements, {attrs['frame']} frame, "
+        f"step {attrs['step']:g} s, to {attrs['duration']:g} s",
     )
     failed = failures(result)
     for sentence, points in failed.items():
@@ -186,13 +186,13 @@ def _print_errors(data: xr.Dataset, _: xr.Dataset) -> None:
     print_line("orders of q(t)", f"{orders[0]} in the mesh, {orders[1]} in the step")
     if "-" in orders:
         print_note("-: the runs do not show it")
-    attrs, asked = data.attrs, data.sel(mesh=data.attrs["elements"], run=3)
+    attrs, finest = data.attrs, data.sel(mesh=data.attrs["elements"], run=3)
     tolerance = attrs["tolerance"]
     take = f"{int(data['recommended_elements'])} elements, step {data['recommended_step']:.3g} s"
     print_line(f"for {tolerance:g}", take)
-    worst = float(np.abs(asked["frequency_error"]).max())
+    worst = float(np.abs(finest["frequency_error"]).max())
     # Their sum: errors of mesh and step may cancel, by luck.
-    error = float(asked["in_mesh"] + asked["in_step"])
+    error = float(finest["in_mesh"] + finest["in_step"])
     if max(worst, error) > tolerance:
         warn(
             f"{attrs['elements']} elements with a step of {attrs['step']:g} s have errors of "

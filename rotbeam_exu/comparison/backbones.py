@@ -47,11 +47,11 @@ def finite_element_points(
     grid: dict[str, Any] = {"omegas": omegas, "ramp_times": ramp_times, "frame": frame, **options}
 
     def measured(elements: int, step: float) -> tuple[xr.Dataset, xr.Dataset]:
-        found = sweep(blade, elements=elements, step=step, **grid)
-        linear = found["omega_n"]
-        ratio, error = found["frequency"] / linear, found["frequency_error"] / linear
-        bar = xr.Dataset({"amplitude": found["amplitude_error"], "ratio": error})
-        return xr.Dataset({"amplitude": found["amplitude"], "ratio": ratio}), bar
+        runs = sweep(blade, elements=elements, step=step, **grid)
+        linear = runs["omega_n"]
+        ratio, error = runs["frequency"] / linear, runs["frequency_error"] / linear
+        bar = xr.Dataset({"amplitude": runs["amplitude_error"], "ratio": error})
+        return xr.Dataset({"amplitude": runs["amplitude"], "ratio": ratio}), bar
 
     points, bar = measured(elements, step)
     coarse_step, _ = measured(elements, 2.0 * step)
@@ -102,13 +102,13 @@ def figure_5(**options: Any) -> xr.Dataset:
         periodic_orbits(blade, omega, row[1:])
         for omega, row in zip(points["omega"].to_numpy().tolist(), peaks.to_numpy(), strict=True)
     ]
-    exact = [np.append(1.0, found.frequency / found.omega_n) for found in orbits]
+    exact = [np.append(1.0, backbone.frequency / backbone.omega_n) for backbone in orbits]
     return data.assign(exact_amplitude=peaks, exact=(peaks.dims, exact, labeled(RATIO)))
 
 
 def _fitted(points: xr.Dataset) -> xr.Dataset:
     """Return λ_ω, κ and the error of λ_ω by least squares: ratio = 1 - λ_ω a² - κ a⁴ to _FITTED."""
-    found = []
+    fits = []
     for omega in points["omega"]:
         here = points.sel(omega=omega)
         inside = (here["amplitude"] < _FITTED).to_numpy()
@@ -120,9 +120,9 @@ def _fitted(points: xr.Dataset) -> xr.Dataset:
         free = square.size - solution.size
         scatter = np.sum((drop - columns @ solution) ** 2) / free if free > 0 else np.nan
         # Errors of step and mesh have one sign at all points of a speed: no square root of a sum.
-        own = np.abs(inverse[0]) @ here["ratio_error"].to_numpy()[inside]
-        found.append([*solution, own + np.sqrt(scatter) * norm(inverse[0])])
-    values = np.array(found)
+        of_points = np.abs(inverse[0]) @ here["ratio_error"].to_numpy()[inside]
+        fits.append([*solution, of_points + np.sqrt(scatter) * norm(inverse[0])])
+    values = np.array(fits)
     return dataset(
         {
             "lambda_omega": ("omega", values[:, 0], "λ_ω"),

@@ -90,10 +90,10 @@ def refinement(
         if progress is not None:
             progress(next(counted), pieces)
 
-    found = np.array([_frequencies(case, size, count, store, one_more) for size in meshes])
+    frequencies = np.array([_frequencies(case, size, count, store, one_more) for size in meshes])
     modes = [
         converged(meshes, None, one / one[-1], noise=FLOOR, declared=(case.model.order, None))
-        for one in found.T
+        for one in frequencies.T
     ]
     time, q = _spun_up(case, resolutions, jobs, store, one_more)
     scale = np.abs(q[-1]).max()
@@ -106,7 +106,9 @@ def refinement(
         true = driven_modes(case.blade, case.omega, len(modes), theory=theory)
         # Else flap, lag and torsion would have to be sorted.
         if case.model.leaves_plane <= true.model.twists:
-            apart = np.array([one.limit for one in modes]) * found[-1] / true.frequencies - 1.0
+            apart = (
+                np.array([one.limit for one in modes]) * frequencies[-1] / true.frequencies - 1.0
+            )
         motion: Any = case.spin_up  # a change of the speed
         response = spin_up_response(
             case.blade, motion, time, tolerance=max(0.1 * tolerance, 1e-8),
@@ -120,7 +122,9 @@ def refinement(
     fitting = case.duration / math.ceil(case.duration * finer * (1.0 - 1e-9))
     return dataset(
         {
-            "frequency": (("mesh", "mode"), found, "natural frequency in steady rotation [rad/s]"),
+            "frequency": (
+                ("mesh", "mode"), frequencies, "natural frequency in steady rotation [rad/s]"
+            ),
             "frequency_error": (
                 ("mesh", "mode"), np.transpose([one.errors for one in modes]),
                 "relative error by the fit",
@@ -160,16 +164,16 @@ def _frequencies(
         "elements": elements,
         "frequencies": count,
     }
-    known = store.get(inputs) if store else None
-    if known is None:
-        found = natural_frequencies(
+    stored = store.get(inputs) if store else None
+    if stored is None:
+        frequencies = natural_frequencies(
             case.blade, case.omega, element=case.element, elements=elements, count=count
         )
-        known = dataset({"frequency": ("mode", found, "natural frequency [rad/s]")}, {})
+        stored = dataset({"frequency": ("mode", frequencies, "natural frequency [rad/s]")}, {})
         if store:
-            store.put(inputs, known)
+            store.put(inputs, stored)
     one_more()
-    return known["frequency"].to_numpy()
+    return stored["frequency"].to_numpy()
 
 
 def _spun_up(
@@ -183,16 +187,18 @@ def _spun_up(
     cases: dict[tuple[float, float], RunCase] = {
         (n, h): replace(case, elements=n, step=h) for n, h in resolutions
     }
-    found: dict[tuple[float, float], xr.DataArray] = {}
+    histories: dict[tuple[float, float], xr.DataArray] = {}
     for at, result in solved(cases, store, None, jobs):
         if result.attrs["failure"]:
             which = f"{at[0]} elements with a step of {at[1]:g} s"
             raise SimulationError(f"{which}: {result.attrs['failure']}")
-        found[at] = result["q"]
+        histories[at] = result["q"]
         one_more()
-    time = found[resolutions[0]]["time"].to_numpy()
+    time = histories[resolutions[0]]["time"].to_numpy()
     # Samples of other runs lie elsewhere, at least 200 in a period: a spline keeps nine digits.
-    return time, np.array([CubicSpline(found[at]["time"], found[at])(time) for at in resolutions])
+    return time, np.array(
+        [CubicSpline(histories[at]["time"], histories[at])(time) for at in resolutions]
+    )
 
 
 def _size(

@@ -165,9 +165,9 @@ def softening_map(blade: Blade | None = None) -> xr.Dataset:
     for i, hub in enumerate(hubs.tolist()):
         unit = blade.with_hub_radius(hub * blade.length).unit
         for j, w_bar in enumerate(speeds.tolist()):
-            found = blade_oscillator(unit, w_bar, coriolis=True)
-            coefficients[i, j] = found.oscillator.lambda_omega
-            ratios[i, j] = found.others[0] / found.oscillator.w_n
+            solution = blade_oscillator(unit, w_bar, coriolis=True)
+            coefficients[i, j] = solution.oscillator.lambda_omega
+            ratios[i, j] = solution.others[0] / solution.oscillator.w_n
     dims = ("hub_ratio", "w_bar")
     return dataset(
         {

@@ -62,7 +62,7 @@ def figure_8() -> xr.Dataset:
         models = [reduced_model(blade, r * blade.omega_0, "CI") for r in speed_ratios]
         ratio = [model.frequency(amplitude) / model.omega_n for model in models]
         orbits = [periodic_orbits(blade, r * blade.omega_0, peaks[1:]) for r in exact_ratios]
-    exact = [np.append(1.0, found.frequency / found.omega_n) for found in orbits]
+    exact = [np.append(1.0, backbone.frequency / backbone.omega_n) for backbone in orbits]
     return dataset(
         {
             "ratio": (("speed_ratio", "amplitude"), ratio, RATIO),
@@ -187,12 +187,12 @@ def _exact_coefficients(blade: Beam, omegas: FloatArray) -> FloatArray:
     """
     nodes = np.linspace(0.0, 1.0, 17)
     fastest = min(float(omegas[-1]), _STRETCHED * blade.burst_speed)
-    found = []
+    coefficients = []
     for node in nodes:
         orbits = periodic_orbits(blade, float(fastest * node**1.5), [_SMALL])
         first, third = orbits.harmonics[0, [0, 2]]
-        found.append((orbits.lambda_omega, third / first**3))
-    curve = interpolate.CubicSpline(nodes, found, extrapolate=False)
+        coefficients.append((orbits.lambda_omega, third / first**3))
+    curve = interpolate.CubicSpline(nodes, coefficients, extrapolate=False)
     return np.asarray(curve((omegas / fastest) ** (2.0 / 3.0)).T)
 
 

@@ -186,20 +186,20 @@ def exact_orbits(blade: Blade, omega: float, amplitudes: tuple[float, ...]) -> x
 
     NaN for orbits that are not found.
     """
-    wanted = np.array(amplitudes)
+    peaks = np.array(amplitudes)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", RotbeamWarning)
         try:
-            backbone = periodic_orbits(blade, omega, wanted)
+            backbone = periodic_orbits(blade, omega, peaks)
         except AmplitudeNotReachedError as error:
             if error.part is None:
                 raise
             backbone = error.part
-    found = np.abs(wanted[:, None] - backbone.amplitude).min(axis=1) < 1e-6
+    reached = np.abs(peaks[:, None] - backbone.amplitude).min(axis=1) < 1e-6
 
     def at_all(values: FloatArray) -> FloatArray:
-        whole = np.full((wanted.size, *values.shape[1:]), np.nan)
-        whole[found] = values
+        whole = np.full((peaks.size, *values.shape[1:]), np.nan)
+        whole[reached] = values
         return whole
 
     tip = backbone.harmonics[:, :_TIP_HARMONICS]

@@ -63,7 +63,7 @@ def columns(
     line, line_rates = model.line(arms, coordinates), model.line(arms, coordinates, relative)
     axis, moving = (e[..., : model.dimensions] @ frame for e in (line, line_rates))
     # Out of the plane of rotation the deflection has a share that is not seen there.
-    seen = line[:, -1, :2] @ [1.0, 1j * setting] * np.exp(1j * angle)
+    inertial = line[:, -1, :2] @ [1.0, 1j * setting] * np.exp(1j * angle)
     off = coordinates[:, 0] - trajectory.reference[0]
     values = {
         "q": (axis[:, -1, 1], "tip displacement q [m]"),
@@ -74,8 +74,8 @@ def columns(
         values["w"] = tip, "tip displacement out of the plane [m]"
         values["w_dot"] = moving[:, -1, 2], "tip velocity out of the plane [m/s]"
     values |= {
-        "tip_x": (seen.real, "tip position along inertial x [m]"),
-        "tip_y": (seen.imag, "tip position along inertial y [m]"),
+        "tip_x": (inertial.real, "tip position along inertial x [m]"),
+        "tip_y": (inertial.imag, "tip position along inertial y [m]"),
         "angle": (angle, "angle of the clamp [rad]"),
         "kinetic_energy": (kinetic, "kinetic energy [J]"),
         "elastic_energy": (elastic, "elastic energy [J]"),
@@ -121,8 +121,8 @@ def columns(
         states = coordinates, relative, absolute, trajectory.accelerations
         run = run.merge(shape_of(section_loads(case, units, built, stations, time, *states)))
     if space:
-        known = labeled("positions of the nodes in the frame of the clamp [m]")
-        run["axis"] = ("time", "node", "direction"), units.length * axis, known
+        axis_label = labeled("positions of the nodes in the frame of the clamp [m]")
+        run["axis"] = ("time", "node", "direction"), units.length * axis, axis_label
         run = run.assign_coords(direction=["x", "y", "z"])
     return run
 
@@ -270,8 +270,8 @@ class _Masses:
         if model.twists:
             unit = space_unit(blade)
             self._arms = blade.length * unit.inertia_about(everywhere, blade.slenderness)[0].T
-            _, own = unit.inertia_about(x, blade.slenderness)
-            second = 0.5 * np.trace(own) * np.eye(3)[..., None] - own
+            _, inertia = unit.inertia_about(x, blade.slenderness)
+            second = 0.5 * np.trace(inertia) * np.eye(3)[..., None] - inertia
             scale = blade.mass_per_length * blade.length**2
             self._second[: x.size] = np.moveaxis(scale * second * dx, -1, 0)
         elif model.theory.rotary_inertia:

@@ -107,9 +107,9 @@ class Mesh:
         inner, weights = gauss_points(8)
         cells = np.union1d(self.ends, self.stations)
         width, first = np.diff(cells), np.searchsorted(cells, self.ends[:-1])
-        found = values((cells[:-1, None] + np.outer(width, inner)).ravel())
-        found = (found.T * np.outer(width, weights).ravel()).T
-        sums = np.add.reduceat(found, weights.size * first)
+        samples = values((cells[:-1, None] + np.outer(width, inner)).ravel())
+        samples = (samples.T * np.outer(width, weights).ravel()).T
+        sums = np.add.reduceat(samples, weights.size * first)
         return np.asarray((sums.T / np.diff(self.ends)).T)
 
     @cached_property
@@ -145,13 +145,13 @@ class Mesh:
         m = blade.mass_per_length * evaluated(unit.mass, x)
         EI = blade.bending_stiffness * evaluated(unit.bending, x)
         EA = blade.axial_stiffness * evaluated(unit.axial, x)
-        told = blade.section.rotary_inertia is not None
-        own = blade.mass_per_length * blade.length**2 * evaluated(unit.rotary, x)
+        stated = blade.section.rotary_inertia is not None
+        of_section = blade.mass_per_length * blade.length**2 * evaluated(unit.rotary, x)
         return Sections(
             mass_per_length=m,
             bending_stiffness=EI,
             axial_stiffness=EA,
-            rotary_inertia=own if told else m * EI / EA,
+            rotary_inertia=of_section if stated else m * EI / EA,
         )
 
     def lumped(self) -> Iterator[tuple[int, PointMass]]:

@@ -204,8 +204,8 @@ def add_rotating_beam(
             constraints = [drive.hold_root(mbs, chain, model)]
             drive.add_inertial_forces(mbs, chain, model, mass, rotation, model.setting(blade))
             model.add_spin_forces(mbs, chain, blade, rotation)
-        seen = rotation.angle if frame == "inertial" else lambda t: 0.0
-        torque = drive.torque_of(mbs, chain, model, constraints, seen)
+        angle = rotation.angle if frame == "inertial" else lambda t: 0.0
+        torque = drive.torque_of(mbs, chain, model, constraints, angle)
         if loading:
             loading.add(mbs, chain, rotation, frame)
     tip = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=chain.nodes[-1]))

@@ -67,9 +67,9 @@ class Units:
 
 def restated(rotation: Rotation, unit: float = 1.0, azimuth: float = 0.0) -> Rotation:
     """Return a rotation whose time is counted in units of `unit` [s], from another angle on."""
-    found = SimpleNamespace(
+    motion = SimpleNamespace(
         angle=lambda t: azimuth + rotation.angle(unit * t),
         rate=lambda t: unit * rotation.rate(unit * t),
         acceleration=lambda t: unit**2 * rotation.acceleration(unit * t),
     )
-    return cast(Rotation, found)
+    return cast(Rotation, motion)

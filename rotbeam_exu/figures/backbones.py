@@ -92,8 +92,8 @@ def figure_14(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
             here = data.sel(omega=omega)
             for name in here["model"].values.tolist():
                 # Smooth in the square of a, as the frequency is.
-                known = np.append(0.0, here["a"]), np.append(1.0, here["backbone"].sel(model=name))
-                ratio = CubicSpline(known[0] ** 2, known[1])(fine**2)
+                points = np.append(0.0, here["a"]), np.append(1.0, here["backbone"].sel(model=name))
+                ratio = CubicSpline(points[0] ** 2, points[1])(fine**2)
                 panel.plot(ratio, fine, label=name, **model_line(name))
             for mesh, (name, look) in _MESHES.items():
                 if mesh in here["mesh"]:

@@ -134,12 +134,18 @@ def _colors(histories: Histories) -> dict[Run, object]:
 
 
 def _draw_errors(
-    ax: Axes, found: Mapping[str, Convergence], declared: float | None, *, in_step: bool = False
+    ax: Axes,
+    convergences: Mapping[str, Convergence],
+    declared: float | None,
+    *,
+    in_step: bool = False,
 ) -> None:
     """Draw the errors of meshes or steps with the limit's bar, and the declared order above."""
     top, places = 0.0, np.empty(0)
-    scale = 1e3 if next(iter(found.values())).refined == "step" else 1.0
-    for (quantity, runs), color, marker in zip(found.items(), cycle(), _MARKERS, strict=False):
+    scale = 1e3 if next(iter(convergences.values())).refined == "step" else 1.0
+    for (quantity, runs), color, marker in zip(
+        convergences.items(), cycle(), _MARKERS, strict=False
+    ):
         sizes, parts = (
             (scale * runs.steps, runs.in_step) if in_step else (runs.elements, runs.in_mesh)
         )

@@ -34,12 +34,12 @@ def paper_figure(
 ) -> Callable[[Callable[..., T]], Callable[..., T]]:
     """Decorate the drawing `figure_N` of the data of that name: Figure N."""
 
-    def known(draw: Callable[..., T]) -> Callable[..., T]:
+    def registered(draw: Callable[..., T]) -> Callable[..., T]:
         number = int(draw.__name__.removeprefix("figure_"))
         PAPER_FIGURES[number] = PaperFigure(shows, claim)
         return draw
 
-    return known
+    return registered
 
 
 def caption(number: int, data: xr.Dataset) -> str:

@@ -171,10 +171,10 @@ def growth_out_of_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     omega, a, rate = data["omega"].to_numpy(), data["a"].to_numpy(), data["growth_rate"].to_numpy()
     with house_axes(ax, column(), 3.2) as axes:
         axes.set_facecolor("0.8")
-        known = np.ma.masked_invalid(rate.T)
+        where_orbits_are = np.ma.masked_invalid(rate.T)
         shade = mpl.colormaps[colormap("YlOrRd")](0.2)
-        axes.contourf(omega, a, known, [-np.inf, 0.0, np.inf], colors=["white", shade])
-        axes.contour(omega, a, known, [0.0], colors="black", linewidths=0.7)
+        axes.contourf(omega, a, where_orbits_are, [-np.inf, 0.0, np.inf], colors=["white", shade])
+        axes.contour(omega, a, where_orbits_are, [0.0], colors="black", linewidths=0.7)
         axes.plot([], [], color="black", lw=0.7, label="limit and tongues")
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
         axes.text(0.03, 0.6, "leaves the plane", transform=axes.transAxes)

@@ -86,8 +86,8 @@ def figure_3(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 def _motion(data: xr.Dataset) -> str:
-    known = data.attrs
-    return f"ω = {quantity(known['omega'], 'rad/s')}, T = {quantity(known['ramp_time'], 's')}"
+    attrs = data.attrs
+    return f"ω = {quantity(attrs['omega'], 'rad/s')}, T = {quantity(attrs['ramp_time'], 's')}"
 
 
 def _elements(count: int) -> str:

@@ -79,7 +79,7 @@ _ACTIVE: ContextVar[_Style] = ContextVar("style", default=_STYLES["house"])
 
 
 @contextmanager
-def style(wanted: str | float = "journal") -> Iterator[None]:
+def style(name: str | float = "journal") -> Iterator[None]:
     """Draw and save in another style: with figures.style("grey"): figures.figure_8(data).
 
     Parameters
@@ -93,13 +93,13 @@ def style(wanted: str | float = "journal") -> Iterator[None]:
     ValueError
         If there is no style of that name.
     """
-    if isinstance(wanted, int | float):
-        chosen = _Style(column=wanted, columns=2.0 * wanted + _GAP, formats=_PRINT)
-    elif wanted in _STYLES:
-        chosen = _STYLES[wanted]
+    if isinstance(name, int | float):
+        chosen = _Style(column=name, columns=2.0 * name + _GAP, formats=_PRINT)
+    elif name in _STYLES:
+        chosen = _STYLES[name]
     else:
         raise ValueError(
-            f"unknown style {wanted!r}; known are {', '.join(_STYLES)}, or a column's width in mm"
+            f"unknown style {name!r}; known are {', '.join(_STYLES)}, or a column's width in mm"
         )
     before = _ACTIVE.set(chosen)
     try:

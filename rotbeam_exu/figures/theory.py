@@ -149,8 +149,8 @@ def _lines(names: Sequence[str]) -> dict[str, dict[str, Any]]:
         if name in looks:
             lines[name] = dict(zip(("color", "ls"), looks[name], strict=True))
         else:
-            kind, _, own = name.partition(", ")
-            lines[name] = model_line(kind) | ({"ls": looks[own][1]} if own else {})
+            kind, _, look = name.partition(", ")
+            lines[name] = model_line(kind) | ({"ls": looks[look][1]} if look else {})
     return lines
 
 
@@ -176,9 +176,9 @@ def figure_12(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         for row, color, mark in zip(off, cycle(), "osD^v<", strict=False):
             name = f"ω = {float(row['omega']):g} rad/s"
             # What is below is round-off.
-            seen = row.where(row > _ROUND_OFF)
+            visible = row.where(row > _ROUND_OFF)
             axes.semilogy(
-                data["degree"], seen, color=color, marker=mark, ms=2.5, lw=0.7, label=name
+                data["degree"], visible, color=color, marker=mark, ms=2.5, lw=0.7, label=name
             )
         axes.axvline(degree, color="0.5", lw=0.5, ls=":")
         axes.annotate(

@@ -124,9 +124,9 @@ def _number(name: str, value: object) -> Any:
             raise TypeError(f"{name} must be a name in quotes, got {value!r}")
         if value not in (names := get_args(NUMERICS.optional[name])):
             more = "; a class of your own is for --element alone" if ":" in value else ""
-            known = ", ".join(map(repr, names))
+            listed = ", ".join(map(repr, names))
             raise ValueError(
-                f"unknown {name} {shown(value)} in [numerics]; known are {known}{more}"
+                f"unknown {name} {shown(value)} in [numerics]; known are {listed}{more}"
             )
         return value
     if name == "elements":
@@ -169,8 +169,8 @@ def _blade(table: dict[str, Any], folder: Path) -> Blade:
             raise ValueError(
                 "[blade.line] and [blade.stations] both give a twist: keep that of the stations"
             )
-        own = {name: getattr(at.line, name) for name in ("prebend", "sweep")}
-        line = {"twist": at.line.twist, **{k: v for k, v in own.items() if v}, **line}
+        curves = {name: getattr(at.line, name) for name in ("prebend", "sweep")}
+        line = {"twist": at.line.twist, **{k: v for k, v in curves.items() if v}, **line}
     else:
         section = dict(parts["section"])
         shape = section.pop("shape", None)

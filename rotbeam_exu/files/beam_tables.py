@@ -29,9 +29,11 @@ class Table(NamedTuple):
 
 def table_of(call: Callable[..., object]) -> Table:
     """Return the keys of a table that holds the fields of a class, or the arguments of a call."""
-    hints, known = get_type_hints(call), inspect.signature(call).parameters.values()
-    asked = {one.name: hints[one.name] for one in known if one.default is one.empty}
-    return Table(asked, {one.name: hints[one.name] for one in known if one.name not in asked})
+    hints, parameters = get_type_hints(call), inspect.signature(call).parameters.values()
+    required = {one.name: hints[one.name] for one in parameters if one.default is one.empty}
+    return Table(
+        required, {one.name: hints[one.name] for one in parameters if one.name not in required}
+    )
 
 
 BEAM = Table(table_of(Beam).required, {"shape": SectionShape})
@@ -69,11 +71,11 @@ _DOCUMENT = Table(
 )
 
 
-def require_keys(value: object, told: object = _DOCUMENT, title: str = "the file") -> None:
+def require_keys(value: object, content: object = _DOCUMENT, title: str = "the file") -> None:
     """Refuse what is no table, missing keys, and unknown ones, in a table and in all within it."""
-    if not (tables := _tables(told)):
+    if not (tables := _tables(content)):
         return
-    if get_origin(told) in (list, Sequence):
+    if get_origin(content) in (list, Sequence):
         if not isinstance(value, list):
             raise ValueError(f"write each [{title}] as a table")
         for one in value:
@@ -87,25 +89,25 @@ def require_keys(value: object, told: object = _DOCUMENT, title: str = "the file
     required, optional = min(
         tables, key=lambda one: (len(one.required.keys() - value), -len(one.required))
     )
-    known = {**required, **optional}
+    keys = {**required, **optional}
     for key, part in value.items():
-        if key not in known:
-            close = difflib.get_close_matches(key, known, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(known)}"
+        if key not in keys:
+            close = difflib.get_close_matches(key, keys, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(keys)}"
             raise ValueError(f"unknown key {key!r} in {title}; {hint}")
-        within = "" if told is _DOCUMENT else f"{title.strip('[]')}."
-        require_keys(part, known[key], f"[{within}{key}]")
+        within = "" if content is _DOCUMENT else f"{title.strip('[]')}."
+        require_keys(part, keys[key], f"[{within}{key}]")
     if missing := [key for key in required if key not in value]:
         raise ValueError(f"{title} lacks {', '.join(missing)}")
 
 
-def _tables(told: object) -> tuple[Table, ...]:
+def _tables(content: object) -> tuple[Table, ...]:
     """Return the tables that a value of a type may be or hold, none of numbers and texts."""
-    if isinstance(told, Table):
-        return (told,)
-    if isinstance(told, type) and issubclass(told, Described):
-        return (table_of(told) if told.__name__ in kinds_of(told) else _TELLING_ITS_KIND,)
-    parts = told if isinstance(told, tuple) else get_args(told)
+    if isinstance(content, Table):
+        return (content,)
+    if isinstance(content, type) and issubclass(content, Described):
+        return (table_of(content) if content.__name__ in kinds_of(content) else _TELLING_ITS_KIND,)
+    parts = content if isinstance(content, tuple) else get_args(content)
     return tuple(table for one in parts for table in _tables(one))
 
 
@@ -128,30 +130,34 @@ _TYPES: dict[object, str | list[str]] = {
 }  # fmt: skip
 
 
-def _schema_of(told: object) -> dict[str, object]:
+def _schema_of(content: object) -> dict[str, object]:
     """Return the schema of a table, of alternatives, or of a value by its type hint."""
-    if isinstance(told, Table):
+    if isinstance(content, Table):
         return {
             "type": "object",
             "properties": {
-                k: _schema_of(v) for k, v in (*told.required.items(), *told.optional.items())
+                k: _schema_of(v) for k, v in (*content.required.items(), *content.optional.items())
             },
-            "required": list(told.required),
+            "required": list(content.required),
             "additionalProperties": False,
         }
-    if get_origin(told) is Literal:
-        return {"enum": list(get_args(told))}
-    if not isinstance(told, tuple) and told in _TYPES:
-        return {"type": _TYPES[told]}
-    parts: Iterable[object] = told if isinstance(told, tuple) else dict.fromkeys(get_args(told))
-    if isinstance(told, type) and issubclass(told, Described):
-        kinds = kinds_of(told)
-        parts = [table_of(told)] if told.__name__ in kinds else map(_with_kind, kinds.values())
+    if get_origin(content) is Literal:
+        return {"enum": list(get_args(content))}
+    if not isinstance(content, tuple) and content in _TYPES:
+        return {"type": _TYPES[content]}
+    parts: Iterable[object] = (
+        content if isinstance(content, tuple) else dict.fromkeys(get_args(content))
+    )
+    if isinstance(content, type) and issubclass(content, Described):
+        kinds = kinds_of(content)
+        parts = (
+            [table_of(content)] if content.__name__ in kinds else map(_with_kind, kinds.values())
+        )
     several: list[dict[str, object]] = [
         _schema_of(one) for one in parts if one not in (NoneType, Ellipsis)
     ]
     choice: dict[str, object] = several[0] if len(several) == 1 else {"anyOf": several}
-    if get_origin(told) in (list, tuple, Sequence):
+    if get_origin(content) in (list, tuple, Sequence):
         return {"type": "array", "items": choice}
     return choice
 

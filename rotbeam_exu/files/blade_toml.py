@@ -31,7 +31,7 @@ def blade_toml(blade: Blade, **others: Any) -> str:
     <BLANKLINE>
     """
     if isinstance(blade, Beam):
-        own = {"beam": _changed(blade)}
+        main = {"beam": _changed(blade)}
     else:
         parts = _changed(blade)
         for name, key in (("point_masses", "point_mass"), ("section", "stations")):
@@ -39,9 +39,9 @@ def blade_toml(blade: Blade, **others: Any) -> str:
                 parts[key] = parts.pop(name)
         if "stations" in parts:
             del parts["length"]
-        own = {"blade": parts}
+        main = {"blade": parts}
     tables = {name: _plain(other) for name, other in others.items()}
-    return "\n".join(_lines({k: v for k, v in (tables | own).items() if v}, ())) + "\n"
+    return "\n".join(_lines({k: v for k, v in (tables | main).items() if v}, ())) + "\n"
 
 
 def _changed(value: Any) -> dict[str, Any]:
@@ -62,20 +62,20 @@ def _plain(part: Any) -> Any:
 
 def _lines(table: Mapping[str, Any], title: tuple[str, ...]) -> list[str]:
     """Return a table's values, then the tables within it."""
-    told = [f"{k} = {_told(v)}" for k, v in table.items() if not isinstance(v, (dict, list))]
+    lines = [f"{k} = {_written(v)}" for k, v in table.items() if not isinstance(v, (dict, list))]
     for key, part in table.items():
         name = ".".join((*title, key))
         for one in part if isinstance(part, list) else [part] * isinstance(part, dict):
             header = f"[[{name}]]" if isinstance(part, list) else f"[{name}]"
-            told += [*[""] * bool(told), header, *_lines(one, (*title, key))]
-    return told
+            lines += [*[""] * bool(lines), header, *_lines(one, (*title, key))]
+    return lines
 
 
-def _told(value: Any) -> str:
+def _written(value: Any) -> str:
     """Return a number, a text or nested numbers as TOML has them, a row of numbers a line."""
     if not isinstance(value, tuple):
         return str(value).lower() if isinstance(value, bool) else repr(value).replace("'", '"')
-    text = ", ".join(map(_told, value))
+    text = ", ".join(map(_written, value))
     if value and isinstance(value[0], tuple):
-        return "[\n" + "".join(f"{_told(one)},\n" for one in value) + "]"
+        return "[\n" + "".join(f"{_written(one)},\n" for one in value) + "]"
     return fill(f"[{text}]", 100, break_long_words=False, break_on_hyphens=False)

@@ -47,9 +47,9 @@ class ForeignText:
         """Return the text before a name, as OpenFAST's files have values."""
         pattern = rf"""^\s*("[^"]*"|'[^']*'|[^\s,]+)[\s,]+{re.escape(name)}(\W|$)"""
         line = self.lines[self.first(pattern, f"line with a value and the name {name}")]
-        found = re.match(pattern, line, re.IGNORECASE)
-        assert found
-        return found[1].strip("\"'")
+        match = re.match(pattern, line, re.IGNORECASE)
+        assert match
+        return match[1].strip("\"'")
 
     def number(self, name: str) -> float:
         """Return the number before a name."""
@@ -83,12 +83,12 @@ class ForeignText:
 
     def rows(self, start: int, count: int, width: int) -> list[list[float]]:
         """Return so many lines of numbers; blank ones between them do not count."""
-        found, place = list[list[float]](), start
-        while len(found) < count:
+        rows, place = list[list[float]](), start
+        while len(rows) < count:
             if place >= len(self.lines) or self.lines[place].strip():
-                found.append(self.row(place, width))
+                rows.append(self.row(place, width))
             place += 1
-        return found
+        return rows
 
     def beside(self, name: str) -> Path:
         """Return the path of a file that this one names, in its own folder or one within."""

@@ -80,7 +80,7 @@ def blade_of_st(path: Path) -> Blade:
         If there are more sets, of which the main file names the blade's.
     """
     text = ForeignText(path)
-    numbers = [int(found[1]) for line in text.lines if (found := re.match(r"\s*#\s*(\d+)", line))]
+    numbers = [int(match[1]) for line in text.lines if (match := re.match(r"\s*#\s*(\d+)", line))]
     if len(numbers) != 1:
         raise ValueError(
             f"{path} has {len(numbers)} sets, of bodies that the main file names: give that, .htc"
@@ -92,15 +92,15 @@ def blade_of_st(path: Path) -> Blade:
 
 def _blocks(text: ForeignText, name: str, start: int, end: int) -> list[tuple[int, int]]:
     """Return first and last line of the blocks between begin and end of a name."""
-    found, begin = list[tuple[int, int]](), None
+    blocks, begin = list[tuple[int, int]](), None
     for k in range(start, end):
         words = text.lines[k].split(";")[0].lower().split()
         if words[:2] == ["begin", name]:
             begin = k + 1
         elif words[:2] == ["end", name] and begin is not None:
-            found.append((begin, k))
+            blocks.append((begin, k))
             begin = None
-    return found
+    return blocks
 
 
 def _value(text: ForeignText, block: tuple[int, int], name: str, count: int = 1) -> str:
@@ -118,10 +118,10 @@ def _table(text: ForeignText, main: int, sub: int) -> FloatArray:
     following = text.lines[start + 1 :]
     end = next((k for k, one in enumerate(following, start + 1) if one.lstrip()[:1] == "#"), None)
     for k in range(start + 1, end or len(text.lines)):
-        found = re.match(rf"\s*\$\s*{sub}\s+(\d+)\b", text.lines[k])
-        if not found:
+        match = re.match(rf"\s*\$\s*{sub}\s+(\d+)\b", text.lines[k])
+        if not match:
             continue
-        count = int(found[1][:9])
+        count = int(match[1][:9])
         if count < 2 or k + 1 >= len(text.lines):
             break
         width = 30 if len(re.split(r"[;!#]", text.lines[k + 1])[0].split()) >= 30 else 19

@@ -50,9 +50,9 @@ def line_through(points: FloatArray, angles: FloatArray) -> tuple[float, Line]:
                     sweep=_pairs(at, bows[:, 1]))  # fmt: skip
         places, axes = unloaded(Blade(length=at[-1], section=_ANY, line=line), at)
         missed = points - places
-        wanted = np.stack([np.zeros_like(angles), -np.sin(angles), np.cos(angles)], axis=1)
-        wanted[:, 0] = -np.sum(wanted * axes[:, :, 0], axis=1) / axes[:, 0, 0]
-        turn = np.arctan2(*(sign * np.sum(wanted * axes[:, :, k], axis=1)
+        target = np.stack([np.zeros_like(angles), -np.sin(angles), np.cos(angles)], axis=1)
+        target[:, 0] = -np.sum(target * axes[:, :, 0], axis=1) / axes[:, 0, 0]
+        turn = np.arctan2(*(sign * np.sum(target * axes[:, :, k], axis=1)
                             for sign, k in ((-1.0, 1), (1.0, 2))))  # fmt: skip
         if max(np.abs(missed).max() / at[-1], np.abs(turn).max()) < _CLOSE:
             return float(at[-1]), replace(

@@ -37,8 +37,8 @@ _OFFSETS = {"Alpha", "PrecrvRef", "PreswpRef", "FlpcgOf", "EdgcgOf", "FlpEAOf", 
 
 def elastodyn_names(title: str) -> str:
     """Return the name here of a column of ElastoDyn, none of other titles."""
-    known = {name.lower(): own for name, own in _ELASTODYN.items()}
-    return known.get(title.partition("[")[0].partition("(")[0].strip().lower(), "")
+    ours = {name.lower(): name_here for name, name_here in _ELASTODYN.items()}
+    return ours.get(title.partition("[")[0].partition("(")[0].strip().lower(), "")
 
 
 def blade_of_beamdyn(path: Path) -> Blade:
@@ -118,10 +118,10 @@ def blade_of_elastodyn(
     header = text.first(r"^\s*BlFract\s", "header BlFract StrcTwst BMassDen FlpStff EdgStff")
     names = text.lines[header].split()
     table = dict(zip(names, np.array(text.rows(header + 2, count, len(names))).T, strict=True))
-    wanted = list(_ELASTODYN)[:5]
-    if missing := [name for name in wanted if name not in table]:
+    needed = list(_ELASTODYN)[:5]
+    if missing := [name for name in needed if name not in table]:
         raise ValueError(f"{path} lacks the column {', '.join(missing)}")
-    eta, twist, m, flap, lag = (table[name] for name in wanted)
+    eta, twist, m, flap, lag = (table[name] for name in needed)
     EA, GJ = (
         table.get(name) if given is None else along(key, given, count, unit)
         for name, key, given, unit in (("EAStff", "axial_stiffness", axial_stiffness, "N"),

@@ -55,24 +55,24 @@ def blade_of_csv(path: Path) -> Blade:
         raise FileNotFoundError(f"there is no file {path}")
     columns = _columns(path)
     planar = "EI" in columns
-    wanted = ("x", "EA", "EI", "m") if planar else ("x", "EA", "GJ", "EI2", "EI3", "m")
-    if missing := [name for name in wanted if name not in columns]:
+    needed = ("x", "EA", "EI", "m") if planar else ("x", "EA", "GJ", "EI2", "EI3", "m")
+    if missing := [name for name in needed if name not in columns]:
         raise ValueError(f"{path} lacks the column {', '.join(missing)}")
     if planar:
         return _planar(columns, path)
     EA, zero = columns["EA"], np.zeros_like(columns["x"])
     # A theory without shear does not use GA2 and GA3; a homogeneous section has j = m EI/EA.
-    known = {"GA2": EA, "GA3": EA, "twist": zero}
-    known |= {f"j{axis}": columns["m"] * columns[f"EI{axis}"] / EA for axis in (2, 3)} | columns
-    known = {"j1": known["j2"] + known["j3"]} | known
+    values = {"GA2": EA, "GA3": EA, "twist": zero}
+    values |= {f"j{axis}": columns["m"] * columns[f"EI{axis}"] / EA for axis in (2, 3)} | columns
+    values = {"j1": values["j2"] + values["j3"]} | values
     pairs: dict[str, Any] = {
-        name: np.stack([known.get(f"{name}{axis}", zero) for axis in (2, 3)], axis=-1)
+        name: np.stack([values.get(f"{name}{axis}", zero) for axis in (2, 3)], axis=-1)
         for name in _CENTERS
     }
     stiffness, mass = (
-        np.stack([known[name] for name in names], axis=-1) for names in (STIFFNESSES, MASSES)
+        np.stack([values[name] for name in names], axis=-1) for names in (STIFFNESSES, MASSES)
     )
-    return Blade.from_stations(known["x"], stiffness, mass, twist=known["twist"], **pairs)
+    return Blade.from_stations(values["x"], stiffness, mass, twist=values["twist"], **pairs)
 
 
 def _planar(columns: dict[str, FloatArray], path: Path) -> Blade:
@@ -126,12 +126,12 @@ def _factors(header: Iterable[str], path: Path) -> dict[str, float]:
     """Return the names of columns and their units in SI."""
     titles = [(_TITLE.fullmatch(title), title.strip()) for title in header]
     named = [
-        (known[1], known[2], title) if known else (title, "", title) for known, title in titles
+        (match[1], match[2], title) if match else (title, "", title) for match, title in titles
     ]
-    if theirs := {title: own for *_, title in named if (own := elastodyn_names(title))}:
-        told = ", ".join(f"{title} is {own}" for title, own in theirs.items())
+    if theirs := {title: ours for *_, title in named if (ours := elastodyn_names(title))}:
+        pairs = ", ".join(f"{title} is {ours}" for title, ours in theirs.items())
         raise ValueError(
-            f"{path} has columns of ElastoDyn: name them as here, where {told}, and give EA [N] "
+            f"{path} has columns of ElastoDyn: name them as here, where {pairs}, and give EA [N] "
             "and GJ [N m^2]; or name ElastoDyn's file itself in [blade.stations]"
         )
     if not any(name in _UNITS for name, *_ in named):  # of another file, of which nothing is shown
@@ -145,14 +145,14 @@ def _factors(header: Iterable[str], path: Path) -> dict[str, float]:
             raise ValueError(f"{path}: unknown column {shown(name)}; known are {', '.join(_UNITS)}")
         if name in factors:
             raise ValueError(f"{path} has two columns {name}: keep one")
-        known = _FACTORS[_UNITS[name]]
+        by_unit = _FACTORS[_UNITS[name]]
         unit = " ".join(written.replace("²", "^2").replace("*", " ").split())
-        if unit not in known:
+        if unit not in by_unit:
             raise ValueError(
                 f"{path}: give the unit of column {shown(title)}, as {name} [{_UNITS[name]}]; "
-                f"known are {', '.join(known)}"
+                f"known are {', '.join(by_unit)}"
             )
-        factors[name] = known[unit]
+        factors[name] = by_unit[unit]
     return factors
 
 

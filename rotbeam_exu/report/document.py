@@ -26,8 +26,8 @@ SCHEMA = "rotbeam judgement 2"
 
 def versions() -> dict[str, str]:
     """Return the versions of what judges, by name."""
-    own = {"rotbeam_exu": version("rotbeam-exu"), "python": platform.python_version()}
-    return own | {name: version(name) for name in ("numpy", "scipy")}
+    ours = {"rotbeam_exu": version("rotbeam-exu"), "python": platform.python_version()}
+    return ours | {name: version(name) for name in ("numpy", "scipy")}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,7 +63,7 @@ class Record:
 
 def document(record: Record) -> dict[str, object]:
     """Return the submission, the findings and the versions; unknown numbers are None."""
-    found = record.judgement
+    judgement = record.judgement
     made: dict[str, object] = _plain(
         {
             "schema": SCHEMA,
@@ -71,12 +71,12 @@ def document(record: Record) -> dict[str, object]:
             "self_judged": True,
             "date": record.date.isoformat(timespec="seconds"),
             "versions": versions(),
-            "declaration": dataclasses.asdict(found.declaration),
-            "outcome": found.outcome,
-            "passed": found.passed,
+            "declaration": dataclasses.asdict(judgement.declaration),
+            "outcome": judgement.outcome,
+            "passed": judgement.passed,
             "mistakes": [dataclasses.asdict(one) for one in record.mistakes],
             "faults": [dataclasses.asdict(one) for one in record.faults],
-            "cases": {name: _case(name, record) for name in found.findings},
+            "cases": {name: _case(name, record) for name in judgement.findings},
             "files": dict(record.digests),
         }
     )
@@ -84,31 +84,31 @@ def document(record: Record) -> dict[str, object]:
 
 
 def _case(name: str, record: Record) -> dict[str, object]:
-    found = record.judgement
+    judgement = record.judgement
     return {
         "title": CASES[name].title if name in CASES else name,
-        "outcome": str(found.outcome_of(name)),
-        "reference": found.sources.get(name, ""),
-        "quantities": {key: _finding(one) for key, one in found.findings[name].items()},
-        "remarks": found.remarks.get(name, []),
-        "runs": [_run(run, found) for run in record.submission.runs if run.case == name],
+        "outcome": str(judgement.outcome_of(name)),
+        "reference": judgement.sources.get(name, ""),
+        "quantities": {key: _finding(one) for key, one in judgement.findings[name].items()},
+        "remarks": judgement.remarks.get(name, []),
+        "runs": [_run(run, judgement) for run in record.submission.runs if run.case == name],
     }
 
 
-def _finding(found: Finding) -> dict[str, object]:
-    runs = found.runs
+def _finding(finding: Finding) -> dict[str, object]:
+    runs = finding.runs
     return {
-        "outcome": str(found.outcome),
-        "passed": found.outcome.passed,
-        "within": found.within,
-        "note": found.note,
-        "at_most": found.tolerance,
-        "model_difference": found.model_difference,
+        "outcome": str(finding.outcome),
+        "passed": finding.outcome.passed,
+        "within": finding.within,
+        "note": finding.note,
+        "at_most": finding.tolerance,
+        "model_difference": finding.model_difference,
         "bar": runs.bar if runs else None,
-        "difference_of_finest": found.difference,
+        "difference_of_finest": finding.difference,
         "discretization": runs.errors[-1] if runs else None,
         "floor": runs.noise[-1] if runs else None,
-        "reference_bound": found.bound,
+        "reference_bound": finding.bound,
         "orders": {key: _order(one) for key, one in runs.orders.items()} if runs else {},
         "elements": runs.elements if runs else [],
         "steps": runs.steps if runs else [],
@@ -127,9 +127,9 @@ def _order(order: Order) -> dict[str, object]:
     }
 
 
-def _run(run: Run, found: Judgement) -> dict[str, object]:
-    histories = found.histories.get(run.case)
-    known = histories.differences.get(run) if histories else None
+def _run(run: Run, judgement: Judgement) -> dict[str, object]:
+    histories = judgement.histories.get(run.case)
+    differences = histories.differences.get(run) if histories else None
     return {
         "file": run.file,
         "elements": run.elements,
@@ -138,7 +138,7 @@ def _run(run: Run, found: Judgement) -> dict[str, object]:
         "dof": run.dof,
         "wall_s": run.wall,
         "cpu_s": run.cpu,
-        "difference": None if known is None else np.abs(known).max(),
+        "difference": None if differences is None else np.abs(differences).max(),
         "failure": run.failure,
         "remark": run.remark,
     }

@@ -54,7 +54,7 @@ _SPECIAL = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textas
 
 def report_page(record: Record) -> str:
     """Return the page as text."""
-    found, stated = record.judgement, record.judgement.declaration
+    judgement, stated = record.judgement, record.judgement.declaration
     orders = (stated.order, "mesh"), (stated.order_in_step, "step")
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
@@ -67,12 +67,12 @@ def report_page(record: Record) -> str:
         # matplotlib takes longer to import than a judgement without a report.
         from ..figures.judgement import judged_figures  # noqa: PLC0415
 
-        figures = {name: list(judged_figures(name, found)) for name in found.findings}
+        figures = {name: list(judged_figures(name, judgement)) for name in judgement.findings}
     return environment.from_string(template).render(
         title=f"{TITLE}: {record.name}",
         record=record,
         versions=versions(),
-        found=found,
+        judgement=judgement,
         stated=stated,
         orders=", ".join(f"{order:g} in {part}" for order, part in orders if order),
         benchmark=VERSION,
@@ -80,7 +80,7 @@ def report_page(record: Record) -> str:
         thresholds=THRESHOLDS,
         reference=Outcome.REFERENCE,
         quantities=[
-            name for name in THRESHOLDS if any(name in of for of in found.findings.values())
+            name for name in THRESHOLDS if any(name in of for of in judgement.findings.values())
         ],
         draws=_DRAWS,
         figures=figures,
@@ -107,7 +107,7 @@ def _mark(outcome: Outcome | Finding, words: str = "") -> Markup:
     return Markup('<span class="{}">{}</span>').format(kind, f"{mark} {words}".strip())
 
 
-def _told(value: float) -> str:
+def _or_dash(value: float) -> str:
     return f"{value:.3g}" if math.isfinite(value) else "–"
 
 
@@ -129,11 +129,11 @@ def _runs(record: Record) -> dict[str, list[str]]:
     columns = {
         "file": [run.file for run in runs],
         "elements": [str(run.elements) for run in runs],
-        "step [s]": [_told(run.step) for run in runs],
-        "tolerance": [_told(run.tolerance) for run in runs],
+        "step [s]": [_or_dash(run.step) for run in runs],
+        "tolerance": [_or_dash(run.tolerance) for run in runs],
         "unknowns": [str(run.dof or "–") for run in runs],
-        "wall [s]": [_told(run.wall) for run in runs],
-        "CPU [s]": [_told(run.cpu) for run in runs],
+        "wall [s]": [_or_dash(run.wall) for run in runs],
+        "CPU [s]": [_or_dash(run.cpu) for run in runs],
         "what happened": [f"failed: {run.failure}" if run.failure else run.remark for run in runs],
     }
     return {name: of for name, of in columns.items() if set(of) - {"", "–"}}
@@ -144,25 +144,25 @@ def latex_table(record: Record) -> str:
 
     A case shows its first quantity: q(t) of a history, a frequency, or a backbone.
     """
-    found = record.judgement
+    judgement = record.judgement
     rows = []
-    for name, findings in found.findings.items():
+    for name, findings in judgement.findings.items():
         first = next(iter(findings.values()))
         runs, limit = first.runs, "--"
         if runs and math.isfinite(runs.limit):
             limit = f"{_in_latex(runs.limit)} $\\pm$ {_in_latex(runs.bar)}"
-        known = [runs.orders.get(part, Order()) if runs else Order() for part in ("mesh", "step")]
+        both = [runs.orders.get(part, Order()) if runs else Order() for part in ("mesh", "step")]
         orders = [
             "--" if math.isnan(one.value) else f"${one.value:.1f} \\pm {one.bar:.1f}$"
-            for one in known
+            for one in both
         ]
-        outcome, finest = str(found.outcome_of(name)), _in_latex(abs(first.difference))
+        outcome, finest = str(judgement.outcome_of(name)), _in_latex(abs(first.difference))
         cells = _escaped(name), outcome, finest, limit, *orders
         rows.append(f"    {' & '.join(cells)} \\\\\n")
     return (
         "\\begin{table}\n"
         f"  \\caption{{{_escaped(record.name)}, judged by the rotating beam benchmark {VERSION}: "
-        f"{_escaped(found.outcome)}.}}\n"
+        f"{_escaped(judgement.outcome)}.}}\n"
         "  \\begin{tabular}{llrrrr}\n    \\toprule\n"
         "    Case & Outcome & Finest run & Limit $-$ reference & Order, mesh & Order, step \\\\\n"
         f"    \\midrule\n{''.join(rows)}    \\bottomrule\n  \\end{{tabular}}\n\\end{{table}}\n"

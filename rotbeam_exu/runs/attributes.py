@@ -33,8 +33,8 @@ def blade_attributes(blade: Blade) -> dict[str, object]:
 
     They say too if the section out of the plane of bending is not known.
     """
-    known = {} if blade.section.knows_space else {"section_out_of_plane": _UNKNOWN}
-    return {"blade_length": blade.length, "blade": json.dumps(describe(blade)), **known}
+    remark = {} if blade.section.knows_space else {"section_out_of_plane": _UNKNOWN}
+    return {"blade_length": blade.length, "blade": json.dumps(describe(blade)), **remark}
 
 
 def loads_of(attrs: Attributes) -> tuple[Load, ...]:
@@ -52,20 +52,20 @@ def theory_attributes(theory: Theory) -> dict[str, object]:
 
     Numbers, for files hold no truth values: a shear of 1 is that of the stations.
     """
-    told = asdict(theory).items()
+    values = asdict(theory).items()
     return {
         name: value if isinstance(value, float) else int(value)
-        for name, value in told
+        for name, value in values
         if value != getattr(BERNOULLI_EULER, name)
     }
 
 
 def theory_of(attrs: Attributes) -> Theory:
     """Return the theory that the attributes of an answer describe."""
-    known = {k.name: attrs[k.name] for k in fields(Theory) if k.name in attrs}
+    stored = {k.name: attrs[k.name] for k in fields(Theory) if k.name in attrs}
     # A number among them is the ratio of shear.
-    told: dict[str, Any] = {k: v if isinstance(v, float) else bool(v) for k, v in known.items()}
-    return Theory(**told)
+    values: dict[str, Any] = {k: v if isinstance(v, float) else bool(v) for k, v in stored.items()}
+    return Theory(**values)
 
 
 def motion_of(attrs: Attributes) -> Motion:
@@ -89,10 +89,10 @@ def motion_attributes(motion: Motion) -> dict[str, object]:
 
 def versions() -> dict[str, str]:
     """Return the versions that a result depends on, of the libraries that are installed."""
-    found = {"rotbeam-exu": __version__, "python": platform.python_version()}
+    numbers = {"rotbeam-exu": __version__, "python": platform.python_version()}
     for name in ("exudyn", "numpy", "scipy"):
         try:
-            found[name] = metadata.version(name)
+            numbers[name] = metadata.version(name)
         except metadata.PackageNotFoundError:
             continue
-    return found
+    return numbers

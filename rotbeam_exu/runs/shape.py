@@ -23,7 +23,7 @@ from .attributes import beam_of, blade_attributes
 _ALIKE = 0.01  # of a side, by which rounded stiffnesses may vary
 
 
-def shape_of(found: SectionLoads) -> xr.Dataset:
+def shape_of(loads: SectionLoads) -> xr.Dataset:
     """Return sections over `time` and `station` [m], in the plane and in space with the same dims.
 
     `place` [m] is in the frame that turns with the clamp, by `direction` x along the clamp, y in
@@ -43,24 +43,24 @@ def shape_of(found: SectionLoads) -> xr.Dataset:
     >>> print(dict(shape.sizes), outer_strain(shape, height=0.0367).max().round(5).item())
     {'time': 2, 'station': 3, 'direction': 3, 'section_axis': 3} 0.00428
     """
-    strains = _strains(found)
-    over = ("time", "station")[-found.place.ndim + 1 :]
+    strains = _strains(loads)
+    over = ("time", "station")[-loads.place.ndim + 1 :]
     by_axis = (*over, "section_axis")
     return dataset(
         {
-            "place": ((*over, "direction"), found.place, "place in the frame of the clamp [m]"),
-            "section": ((*over, "direction", "section_axis"), found.section, "section's axes"),
-            "force": (by_axis, found.force, "force on the inboard part [N]"),
-            "moment": (by_axis, found.moment, "moment on the inboard part [N m]"),
+            "place": ((*over, "direction"), loads.place, "place in the frame of the clamp [m]"),
+            "section": ((*over, "direction", "section_axis"), loads.section, "section's axes"),
+            "force": (by_axis, loads.force, "force on the inboard part [N]"),
+            "moment": (by_axis, loads.moment, "moment on the inboard part [N m]"),
             "strain": (over, strains[..., 0], "strain of the axis"),
             "curvature": (by_axis, strains[..., 3:], "elastic twist and curvatures [1/m]"),
         },
         {
-            "station": (found.stations, "distance from the clamp [m]"),
+            "station": (loads.stations, "distance from the clamp [m]"),
             "direction": ["x", "y", "z"],
             "section_axis": ["normal", "chord", "thickness"],
         },
-        blade_attributes(found.blade),
+        blade_attributes(loads.blade),
     )
 
 
@@ -119,7 +119,7 @@ def strain_at(
         data["curvature"].isel(section_axis=k, drop=True) for k in (1, 2)
     )
     strain = data["strain"] + about_chord * c3 - about_thickness * c2
-    found = {"strain": strain.assign_attrs(units="1", long_name="strain at the point")}
+    columns = {"strain": strain.assign_attrs(units="1", long_name="strain at the point")}
     if youngs_modulus is not None:
         E = finite_array("youngs_modulus", youngs_modulus, "Pa")
         if E.min() <= 0.0 or E.shape not in ((), c2.shape, c2.shape[-1:]):
@@ -129,8 +129,8 @@ def strain_at(
             )
         modulus = xr.DataArray(np.broadcast_to(E, c2.shape), dims=over)
         stress = (modulus * strain).transpose(*strain.dims)
-        found["stress"] = stress.assign_attrs(units="Pa", long_name="stress at the point")
-    return xr.Dataset(found, attrs=data.attrs)
+        columns["stress"] = stress.assign_attrs(units="Pa", long_name="stress at the point")
+    return xr.Dataset(columns, attrs=data.attrs)
 
 
 def offsets_of(blade: Blade, at: FloatArray, points: ArrayLike) -> FloatArray:
@@ -206,14 +206,14 @@ def _relative(blade: Blade, name: str, at: FloatArray) -> FloatArray:
     return np.asarray(side / side.max())
 
 
-def _strains(found: SectionLoads) -> FloatArray:
+def _strains(inner: SectionLoads) -> FloatArray:
     """Return ε, γ and κ [1/m], (..., stations, 6), that force and moment cause."""
-    blade, EI, L = found.blade, found.blade.bending_stiffness, found.blade.length
-    at, section = found.stations / L, blade.section
+    blade, EI, L = inner.blade, inner.blade.bending_stiffness, inner.blade.length
+    at, section = inner.stations / L, blade.section
     soft = _flexibility(blade, at)
-    loads = np.concatenate((found.force * L**2 / EI, found.moment * L / EI), axis=-1)
+    loads = np.concatenate((inner.force * L**2 / EI, inner.moment * L / EI), axis=-1)
     shortening: Any = 0.0
-    if found.trapeze and section.knows_space:
+    if inner.trapeze and section.knows_space:
         # N acts on ε + ½k²(κ1² - κ01²): k²Nκ1 of the torque is its own.
         twist, k2 = slope_of(blade.line.in_units(L).twist, at), trapeze_of(soft)
         pull = k2 * loads[..., 0]

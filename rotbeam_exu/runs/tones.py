@@ -29,7 +29,7 @@ _ROUND_OFF = 16.0 * float(np.finfo(np.float64).eps)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Known:
+class Estimate:
     """A number and the largest change that the remainder could have brought about."""
 
     value: float
@@ -79,20 +79,20 @@ class Fit:
         """Weighted sum of the remainder's squares."""
         return float(self.weights @ self.remainder**2)
 
-    def frequency(self) -> Known:
+    def frequency(self) -> Estimate:
         """Return ω and its error."""
         gradient = np.zeros(self.coefficients.size + self.rates.size)
         gradient[self.coefficients.size] = 1.0
-        return self._known(float(self.rates[0]), gradient)
+        return self._estimate(float(self.rates[0]), gradient)
 
-    def half_peak_to_peak(self) -> Known:
+    def half_peak_to_peak(self) -> Estimate:
         """Return half the height of the series, from its lowest to its highest, and its error."""
         top, bottom = (self._turn(sign) for sign in (1.0, -1.0))
         gradient = np.zeros(self.coefficients.size + self.rates.size)
         gradient[_COSINES] = 0.5 * (np.cos(top * _ORDERS) - np.cos(bottom * _ORDERS))
         gradient[self._sines] = 0.5 * (np.sin(top * _ORDERS) - np.sin(bottom * _ORDERS))
         height = float(gradient[: self.coefficients.size] @ self.coefficients)
-        return self._known(height, gradient)
+        return self._estimate(height, gradient)
 
     def uncertainty(self) -> float:
         """Return the product of both errors, by which fits are compared."""
@@ -113,7 +113,7 @@ class Fit:
             phase -= slope / bend
         return phase
 
-    def _known(self, value: float, gradient: FloatArray) -> Known:
+    def _estimate(self, value: float, gradient: FloatArray) -> Estimate:
         """Attach an error to a number that changes with the parameters by `gradient`.
 
         The number moves with the samples by g·δx, g the influence function of the fit. The
@@ -125,7 +125,7 @@ class Fit:
         influence = self.weights * (self.tangent @ (inverse @ (inverse.T @ gradient)))
         of_influence = np.abs(np.fft.rfft(influence, samples))
         bound = 2.0 / samples * float(of_influence @ self._unlucky)
-        return Known(value=value, error=bound + _ROUND_OFF * abs(value))
+        return Estimate(value=value, error=bound + _ROUND_OFF * abs(value))
 
     @cached_property
     def tangent(self) -> FloatArray:

@@ -88,10 +88,10 @@ def maker(element: str | Formulation) -> dict[str, str] | None:
     """
     cls = type(formulation(element))
     tops = {base.__module__.partition(".")[0] for base in cls.__mro__} - sys.stdlib_module_names
-    found = [_files(name) for name in sorted({"analytic", "rotbeam_exu", *tops})]
-    if any("<locals>" in base.__qualname__ for base in cls.__mro__) or not all(found):
+    sources = [_files(name) for name in sorted({"analytic", "rotbeam_exu", *tops})]
+    if any("<locals>" in base.__qualname__ for base in cls.__mro__) or not all(sources):
         return None
-    code = hashlib.sha256(repr(found).encode()).hexdigest()
+    code = hashlib.sha256(repr(sources).encode()).hexdigest()
     return {"class": f"{cls.__module__}.{cls.__qualname__}", "code": code}
 
 
@@ -120,21 +120,21 @@ def worker_pool(executor: Executor | None, jobs: int | None, most: int) -> Itera
     cores = os.cpu_count() or 1
     workers = min(cores if jobs is None else whole_number("jobs", jobs), max(most, 1))
     spawn = multiprocessing.get_context("spawn")
-    own: Any = _Processes(workers, mp_context=spawn, initializer=_obey_parent)
+    pool: Any = _Processes(workers, mp_context=spawn, initializer=_obey_parent)
     try:
-        yield own
+        yield pool
     except BaseException:
         # Do not wait for what nobody asks for any more. What waits is dropped first: the pool's
         # thread fails whatever it still has when a process dies, which a canceled future refuses.
         # It does so only while the pool lives.
-        processes, thread = list((own._processes or {}).values()), own._executor_manager_thread
-        own.shutdown(wait=False, cancel_futures=True)
+        processes, thread = list((pool._processes or {}).values()), pool._executor_manager_thread
+        pool.shutdown(wait=False, cancel_futures=True)
         for process in processes:
             process.terminate()
         if thread is not None:
             thread.join()
         raise
-    own.shutdown()
+    pool.shutdown()
 
 
 class _Processes(ProcessPoolExecutor):

@@ -173,12 +173,12 @@ def failures(result: xr.Dataset) -> dict[str, list[tuple[float, float]]]:
     ...     print(cases, sentence.split(" over ")[0])
     [(2.0, 3.0)] the drift of the steady Jacobi energy E - ω L_z
     """
-    found: dict[str, list[tuple[float, float]]] = {}
+    points: dict[str, list[tuple[float, float]]] = {}
     omegas, times = (result[name].to_numpy().tolist() for name in ("omega", "ramp_time"))
     for (i, j), sentence in np.ndenumerate(result["failure"].to_numpy()):
         if sentence:
-            found.setdefault(str(sentence), []).append((omegas[i], times[j]))
-    return found
+            points.setdefault(str(sentence), []).append((omegas[i], times[j]))
+    return points
 
 
 def solved(
@@ -190,11 +190,11 @@ def solved(
     """Each case with its result: from the cache first, then as the executor finishes them."""
     waiting = []
     for point, case in cases.items():
-        known = store.get(case.describe()) if store else None
-        if known is None:
+        stored = store.get(case.describe()) if store else None
+        if stored is None:
             waiting.append(point)
         else:
-            yield point, known
+            yield point, stored
     if not waiting:
         return
     if executor is None and jobs == 1:

@@ -175,8 +175,8 @@ def _orders(
     moved: FloatArray, noise: FloatArray, refined: str,
 ) -> dict[str, Order]:  # fmt: skip
     """Return the orders as observed, whatever was declared."""
-    seen = float(np.abs(moved).max()) > 4.0 * float(noise.max())
-    found = {}
+    visible = float(np.abs(moved).max()) > 4.0 * float(noise.max())
+    orders = {}
     for k, (name, sizes) in enumerate((("mesh", n), ("step", h))):
         if name == "step" and not models.given[2].any():
             continue
@@ -188,13 +188,13 @@ def _orders(
         share = np.exp(free - free.max())
         bar = math.sqrt(float(share @ (grid - value) ** 2 / share.sum()))
         why = "" if bar <= _TELLING * value else "the runs do not tell it"
-        if not seen:
+        if not visible:
             why = "the changes are below the floor"
         if count < 3:
             why = f"{count} {'meshes' if name == 'mesh' else refined + 's'}, three are needed"
-        told = {} if why else {"value": value, "bar": bar}
-        found[name] = Order(declared=stated, why=why, **told)
-    return found
+        estimate = {} if why else {"value": value, "bar": bar}
+        orders[name] = Order(declared=stated, why=why, **estimate)
+    return orders
 
 
 def _growths(n: FloatArray, h: FloatArray, f: FloatArray, noise: FloatArray) -> int:
@@ -209,7 +209,7 @@ def _growths(n: FloatArray, h: FloatArray, f: FloatArray, noise: FloatArray) -> 
         change = np.abs(np.diff(f[row], axis=0)).max(axis=1) if len(row) > 1 else np.empty(0)
         slack = noise[row][1:] + noise[row][:-1]
         rate, streak = change / np.diff(level[row]), 0
-        for before, after, told in zip(rate, rate[1:], change[1:] > slack[1:], strict=False):
-            streak = streak + 1 if after > before and told else 0
+        for before, after, counts in zip(rate, rate[1:], change[1:] > slack[1:], strict=False):
+            streak = streak + 1 if after > before and counts else 0
             most = max(most, streak)
     return most

@@ -62,23 +62,23 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
         frame = frame_of(case.blade)
         if not (case.is_spun_up or model.starts_in_motion):
             raise NotImplementedError(f"{model.name} does not start on an orbit")
-        found = simulate(
+        data = simulate(
             case.blade, case.rotation, element=model, elements=elements, step=step,
             duration=case.whole_duration(step), loads=case.loads,
             initial_state=case.start, frame=frame,
         )  # fmt: skip
         names = {"q": "lag", "w": "flap"}
-        return found.rename({old: new for old, new in names.items() if new in case.columns})
+        return data.rename({old: new for old, new in names.items() if new in case.columns})
 
     def lowest(case: Case, omega: float, elements: int) -> FloatArray:
         frame_of(case.blade)
-        found = Linearization.of(case.blade, omega, model, elements)
-        return np.asarray(found.frequencies(case.count))
+        linear = Linearization.of(case.blade, omega, model, elements)
+        return np.asarray(linear.frequencies(case.count))
 
     def steady_tip(case: Case, omega: float, elements: int) -> FloatArray:
         frame_of(case.blade)
-        found = Linearization.of(case.blade, omega, model, elements, weight=case.loads)
-        return np.array([*(case.blade.length * found.tip[1:]), found.twist])
+        linear = Linearization.of(case.blade, omega, model, elements, weight=case.loads)
+        return np.array([*(case.blade.length * linear.tip[1:]), linear.twist])
 
     return Entry(
         name=" ".join([model.name, *options]),

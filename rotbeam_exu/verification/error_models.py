@@ -131,8 +131,8 @@ def _modeled(
     size = covariance[:, each, each]
     # Errors of mesh and step together end where either does.
     smaller = np.minimum(mesh[:, each, each], step[:, each, each]) if step.any() else size
-    own = _OWN**2 * smaller + _LEAST**2 * size
-    covariance[:, each, each] += own + (given[5] ** 2 * size.min(axis=1))[:, None]
+    of_runs = _OWN**2 * smaller + _LEAST**2 * size
+    covariance[:, each, each] += of_runs + (given[5] ** 2 * size.min(axis=1))[:, None]
     scale = np.sqrt(covariance[:, each, each])
     both = scale[:, :, None] * scale[:, None, :]
     covariance /= both
@@ -201,8 +201,8 @@ def likeliest(models: Models, evidence: FloatArray, runs: FloatArray) -> Models:
         given += [np.full(given[0].size, one) for one in others]
         prior = np.log(_density(given[0], models.declared[0]))
         prior = prior + np.log(_density(given[1], models.declared[1])) * stepped
-        found = _modeled(models.x, models.y, models.declared, prior, *given)
-        k = int(np.argmax(found.evidence(runs)))
+        fits = _modeled(models.x, models.y, models.declared, prior, *given)
+        k = int(np.argmax(fits.evidence(runs)))
         p, r, ratio, width = *(float(one[k]) for one in given[:3]), 0.6 * width
     given = [np.array([one]) for one in (p, r, ratio, *others)]
     return _modeled(models.x, models.y, models.declared, np.zeros(1), *given)
@@ -222,8 +222,8 @@ def bar_of(models: Models, evidence: FloatArray, weights: FloatArray, runs: Floa
     apart = w - weights
     spread = np.einsum("g,gi,gj", share, apart, apart) + np.einsum("g,gij", share, of_each)
     worst = runs[:, np.argmax(np.einsum("it,ij,jt->t", runs, spread, runs))]
-    own = np.sqrt(np.maximum(np.einsum("gij,i,j->g", of_each, worst, worst), 0.0))
-    off = np.abs((apart @ worst)[:, None] + own[:, None] * _STUDENT[freedom]).ravel()
+    of_model = np.sqrt(np.maximum(np.einsum("gij,i,j->g", of_each, worst, worst), 0.0))
+    off = np.abs((apart @ worst)[:, None] + of_model[:, None] * _STUDENT[freedom]).ravel()
     order = np.argsort(off)
     covered = np.cumsum(np.repeat(share / _PROBABILITIES.size, _PROBABILITIES.size)[order])
     return float(off[order][np.searchsorted(covered, _COVERED)])

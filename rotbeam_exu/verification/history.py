@@ -16,7 +16,7 @@ from analytic.threads import one_thread
 from ..runs.oscillation import NoOscillationError, SteadyOscillation, oscillation_of
 from .case import Case
 from .convergence import Convergence, converged
-from .outcomes import Finding, Outcome, found_of
+from .outcomes import Finding, Outcome, finding_of
 from .references import Reference
 from .submission import Declaration, Row, Run
 
@@ -38,7 +38,7 @@ FREE_FOR = 20.0
 FREE_SWING = 0.01
 """Largest |q|/L of a free vibration: its frequency is within 3e-6 of the linear one."""
 
-FREE_KNOWN = 2e-5
+FREE_UNCERTAINTY = 2e-5
 """Relative uncertainty of the frequency of a free vibration: a tenth of what passes."""
 
 
@@ -90,12 +90,12 @@ class Histories:
         """Return the finding of q(t) itself, over max|q|."""
         # Amplitude and frequency have few digits in the estimator's own errors already.
         noise = [HISTORY_FLOOR + np.max(run.rounding / self.scale) for run in self.aligned]
-        found = self._found(self.aligned, noise, tolerance, self.reference.bound)
-        if len(self.case.columns) > 1 and not found.outcome.passed:
+        finding = self._finding(self.aligned, noise, tolerance, self.reference.bound)
+        if len(self.case.columns) > 1 and not finding.outcome.passed:
             worst = np.abs(self.differences[self.finest]).max(axis=0).argmax()
-            note = f"{found.note}, most of all {self.case.columns[worst]}"
-            found = replace(found, note=note)
-        return found
+            note = f"{finding.note}, most of all {self.case.columns[worst]}"
+            finding = replace(finding, note=note)
+        return finding
 
     @cached_property
     def oscillations(self) -> dict[Run, SteadyOscillation | str]:
@@ -133,15 +133,15 @@ class Histories:
         speed = self.case.rotation.omega
         # A limit that is known less well than it is off mends nothing.
         off, doubt = mending(linear)
-        known = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
-        runs = sorted(known, key=lambda run: run.fineness)
+        swings = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
+        runs = sorted(swings, key=lambda run: run.fineness)
         try:
-            true = self.reference.frequency_at([known[run].amplitude for run in runs])
+            true = self.reference.frequency_at([swings[run].amplitude for run in runs])
             first = self.reference.first_frequency(speed)
         except (RuntimeError, ValueError) as error:
             return Finding(outcome=Outcome.UNDECIDED, note=f"no reference: {error}")
         measured = {
-            run: (known[run].frequency / w - 1.0 - off, known[run].frequency_error / w)
+            run: (swings[run].frequency / w - 1.0 - off, swings[run].frequency_error / w)
             for run, w in zip(runs, true.tolist(), strict=True)
         }
         shift = float(true[-1]) / first - 1.0 if runs else math.nan
@@ -166,9 +166,9 @@ class Histories:
             return Finding(outcome=Outcome.DIFFERS, note=note, tolerance=tolerance)
         values = {run: np.array([value / scale]) for run, (value, _) in measured.items()}
         noise = [bar / abs(scale) for _, bar in measured.values()]
-        return self._found(values, noise, tolerance, bound / abs(scale), of_what)
+        return self._finding(values, noise, tolerance, bound / abs(scale), of_what)
 
-    def _found(
+    def _finding(
         self, of: Mapping[Run, FloatArray], noise: Sequence[float], tolerance: float, bound: float,
         of_what: str = "the reference",
     ) -> Finding:  # fmt: skip
@@ -179,7 +179,7 @@ class Histories:
             declared=(self.declaration.order, self.declaration.order_in_step),
         )  # fmt: skip
         where = f"in {self.case.name}"
-        return found_of(runs, tolerance=tolerance, bound=bound, where=where, of_what=of_what)
+        return finding_of(runs, tolerance=tolerance, bound=bound, where=where, of_what=of_what)
 
     def _oscillation(self, time: FloatArray, q: FloatArray) -> SteadyOscillation | str:
         case = self.case
@@ -209,24 +209,24 @@ def free_frequency(case: Case, elements: int, speed: float, time: FloatArray, q:
         If q swings too far, or its frequency is not known well enough, as where it is damped.
     """
     try:
-        found = oscillation_of(time, q / case.blade.length, 0.0, None)
+        oscillation = oscillation_of(time, q / case.blade.length, 0.0, None)
     except NoOscillationError as error:
         begin = f"start in the first mode, at up to {FREE_SWING:g} L, and let go"
         raise ValueError(f"{str(error).partition(':')[0]}: {begin}") from error
-    if found.amplitude > FREE_SWING:
+    if oscillation.amplitude > FREE_SWING:
         raise ValueError(
-            f"swings by {found.amplitude:.2g} L, where the frequency is no longer the linear one: "
-            f"start at {FREE_SWING:g} L or less"
+            f"swings by {oscillation.amplitude:.2g} L, where the frequency is no longer the linear "
+            f"one: start at {FREE_SWING:g} L or less"
         )
-    known = found.frequency_error / found.frequency
-    if known > FREE_KNOWN:
+    uncertainty = oscillation.frequency_error / oscillation.frequency
+    if uncertainty > FREE_UNCERTAINTY:
         raise ValueError(
-            f"leaves the frequency known to {known:.0e} only, {FREE_KNOWN:.0e} are needed: take "
-            "out all damping, and start in the first mode"
+            f"leaves the frequency known to {uncertainty:.0e} only, {FREE_UNCERTAINTY:.0e} are "
+            "needed: take out all damping, and start in the first mode"
         )
     return Row(
-        case=case.name, elements=elements, speed=speed, values=(found.frequency,),
-        rounding=(found.frequency_error,),
+        case=case.name, elements=elements, speed=speed, values=(oscillation.frequency,),
+        rounding=(oscillation.frequency_error,),
     )  # fmt: skip
 
 

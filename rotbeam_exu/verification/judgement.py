@@ -14,7 +14,7 @@ from .case import TIP, Asked, Case
 from .cases import CASES
 from .convergence import Convergence, Order, converged
 from .history import Histories, judged_apart, mending
-from .outcomes import Finding, Outcome, found_of, worst_of
+from .outcomes import Finding, Outcome, finding_of, worst_of
 from .references import Reference, reference
 from .submission import Declaration, Row, Submission
 
@@ -91,8 +91,8 @@ class Judgement:
 
     def outcome_of(self, case: str) -> Outcome:
         """Return the worst outcome of a case."""
-        found = list(self.findings.get(case, {}).values())
-        return worst_of(found).outcome if found else Outcome.NOT_SUBMITTED
+        findings = list(self.findings.get(case, {}).values())
+        return worst_of(findings).outcome if findings else Outcome.NOT_SUBMITTED
 
     @property
     def passed(self) -> bool | None:
@@ -131,9 +131,9 @@ class Judgement:
 
     def __str__(self) -> str:
         lines = [f"{self.declaration.code}: {self.outcome}"]
-        for (case, quantity), found in self.by_quantity.items():
+        for (case, quantity), finding in self.by_quantity.items():
             allowed = f" (at most {THRESHOLDS[quantity]:g})"
-            lines.append(f"  {case:<5}{quantity:<18}{found}{allowed}")
+            lines.append(f"  {case:<5}{quantity:<18}{finding}{allowed}")
         for case, orders in self.orders.items():
             lines += [f"  {case:<5}order in {name:<9}{order}" for name, order in orders.items()]
         lines += [f"  {case:<5}{said}" for case, of in self.remarks.items() for said in of]
@@ -176,13 +176,13 @@ def judged(
     >>> from rotbeam_exu.verification.cases import CASES
     >>> from rotbeam_exu.verification.entries import formulation_entry
     >>> from rotbeam_exu.verification.judgement import judged
-    >>> from rotbeam_exu.verification.verify import handed_in
+    >>> from rotbeam_exu.verification.verify import submission_of
     >>> linear = {"L": CASES["L"]}
-    >>> found = judged(handed_in(formulation_entry(Cable()), linear.values()), cases=linear)
+    >>> found = judged(submission_of(formulation_entry(Cable()), linear.values()), cases=linear)
     >>> print(found.outcome, found.passed)
     1 of 1 agrees True
     """
-    known = CASES if cases is None else cases
+    all_cases = CASES if cases is None else cases
     findings: dict[str, dict[str, Finding]] = {}
     histories: dict[str, Histories] = {}
     sources: dict[str, str] = {}
@@ -191,7 +191,7 @@ def judged(
     # Frequencies come first: what they tend to is taken from the nonlinear ones.
     chosen = [
         case
-        for case in sorted(known.values(), key=lambda one: list(Asked).index(one.asked))
+        for case in sorted(all_cases.values(), key=lambda one: list(Asked).index(one.asked))
         if submission.has(case)
         and (not only or case.name in only or case.asked is Asked.FREQUENCIES)
     ]
@@ -205,12 +205,12 @@ def judged(
             sources[name], findings[name] = "none", _undecided(case, f"no reference: {error}")
             continue
         sources[name] = truth.source
-        own = linear[case.blade]
+        frequencies = linear[case.blade]
         if case.asked is not Asked.HISTORY:
             (quantity,) = case.quantities
-            found, limits = _of_table(submission, truth, THRESHOLDS[quantity], own)
-            findings[name] = {quantity: found}
-            own.update(limits if case.asked is Asked.FREQUENCIES else {})
+            finding, limits = _of_table(submission, truth, THRESHOLDS[quantity], frequencies)
+            findings[name] = {quantity: finding}
+            frequencies.update(limits if case.asked is Asked.FREQUENCIES else {})
             continue
         handed = [run for run in submission.runs if run.case == name]
         runs, remarks[name] = judged_apart(handed, truth)
@@ -220,16 +220,16 @@ def judged(
         histories[name] = Histories(
             case=case, runs=tuple(runs), reference=truth, declaration=submission.declaration
         )
-        findings[name] = _of_histories(histories[name], own)
-    asked = [name for name in known if not only or name in only]
-    names = [name for name in asked if name in findings]
+        findings[name] = _of_histories(histories[name], frequencies)
+    required = [name for name in all_cases if not only or name in only]
+    names = [name for name in required if name in findings]
     return Judgement(
         declaration=submission.declaration,
         findings={name: findings[name] for name in names},
         histories={name: histories[name] for name in names if name in histories},
         sources={name: sources[name] for name in names},
         remarks={name: remarks[name] for name in names if remarks.get(name)},
-        asked=tuple(asked),
+        asked=tuple(required),
     )
 
 
@@ -237,13 +237,13 @@ def _undecided(case: Case, note: str) -> dict[str, Finding]:
     return dict.fromkeys(case.quantities, Finding(outcome=Outcome.UNDECIDED, note=note))
 
 
-def _of_histories(seen: Histories, linear: Mapping[float, Convergence]) -> dict[str, Finding]:
+def _of_histories(histories: Histories, linear: Mapping[float, Convergence]) -> dict[str, Finding]:
     """Return the findings on the runs of a case, by quantity."""
-    findings = {"history": seen.deflection(THRESHOLDS["history"])}
-    if seen.case.oscillates:
-        findings["amplitude"] = seen.amplitude(THRESHOLDS["amplitude"])
-        own = linear.get(seen.case.rotation.omega)
-        shift = seen.shift(THRESHOLDS["nonlinear shift"], own)
+    findings = {"history": histories.deflection(THRESHOLDS["history"])}
+    if histories.case.oscillates:
+        findings["amplitude"] = histories.amplitude(THRESHOLDS["amplitude"])
+        frequencies = linear.get(histories.case.rotation.omega)
+        shift = histories.shift(THRESHOLDS["nonlinear shift"], frequencies)
         findings |= {} if shift is None else {"nonlinear shift": shift}
     return findings
 
@@ -263,15 +263,15 @@ def _of_table(
     for one in sorted(submission.rows, key=lambda one: one.elements):
         if one.case == reference.case.name:
             rows[one.place].append(one)
-    declared, found = submission.declaration.order, []
+    declared, places = submission.declaration.order, []
     limits: dict[float, Convergence] = {}
     for (speed, _, number), of_place in sorted(rows.items(), key=lambda one: one[0]):
         here = _of_place(of_place, reference, tolerance, declared, linear)
-        found += here
+        places += here
         runs = here[0].runs
         if number == 1 and runs is not None and math.isfinite(runs.limit):
             limits[speed] = runs
-    return worst_of(found), limits
+    return worst_of(places), limits
 
 
 def _of_place(
@@ -285,22 +285,22 @@ def _of_place(
 
     A place that the theory refuses is undecided.
     """
-    asked = reference.case.asked
+    quantity = reference.case.asked
     speed, amplitude, number = rows[0].place
     where, shift, floor, off, doubt = f"at {speed:g} rad/s", 1.0, FLOOR, 0.0, 0.0
-    if asked is Asked.BACKBONE:
+    if quantity is Asked.BACKBONE:
         where, floor = f"{where} and a = {amplitude:g}", 0.0
         off, doubt = mending(linear.get(speed))
     try:
         true = reference.numbers(rows[0]).tolist()
-        if asked is Asked.BACKBONE:
+        if quantity is Asked.BACKBONE:
             shift = true[0] / reference.first_frequency(speed) - 1.0
     except (RuntimeError, ValueError) as error:
         return [Finding(outcome=Outcome.UNDECIDED, note=f"no reference {where}: {error}")]
     done = [one for one in rows if not one.failure]
     if not done:
         return [Finding(outcome=Outcome.UNDECIDED, note=f"no mesh: {rows[-1].failure}")]
-    found = []
+    findings = []
     for k, right in enumerate(true):
         rounding = [one.rounding[k] if one.rounding else 0.0 for one in done]
         runs = converged(
@@ -310,8 +310,10 @@ def _of_place(
             declared=(declared, None),
         )  # fmt: skip
         named = (
-            f"in {TIP[k]} " if asked is Asked.STEADY else f"in frequency {number} " * (number > 1)
+            f"in {TIP[k]} "
+            if quantity is Asked.STEADY
+            else f"in frequency {number} " * (number > 1)
         )
         bound = (reference.bound + doubt) / abs(shift)
-        found.append(found_of(runs, tolerance=tolerance, bound=bound, where=named + where))
-    return found
+        findings.append(finding_of(runs, tolerance=tolerance, bound=bound, where=named + where))
+    return findings

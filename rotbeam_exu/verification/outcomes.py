@@ -85,7 +85,7 @@ class Finding:
         return f"{text}; {self.note}" if self.note else text
 
 
-def found_of(
+def finding_of(
     runs: Convergence, *, tolerance: float, bound: float, where: str, of_what: str = "the reference"
 ) -> Finding:
     """Return the finding of relative differences to a reference that is known within `bound`.
@@ -157,7 +157,7 @@ def worst_of(findings: list[Finding]) -> Finding:
     rank = list(Outcome)
 
     def weight(one: Finding) -> tuple[int, bool, float]:
-        known = math.isfinite(one.model_difference)
-        return rank.index(one.outcome), not known, abs(one.model_difference) if known else 0.0
+        finite = math.isfinite(one.model_difference)
+        return rank.index(one.outcome), not finite, abs(one.model_difference) if finite else 0.0
 
     return max(findings, key=weight)

@@ -71,8 +71,8 @@ class Reference:
                 f"the reference of case {self.case.name} goes from 0 to {self.case.duration:g} s, "
                 f"got {wrong:g} s: leave out what is beyond"
             )
-        found: FloatArray = self._history(t, derivative)
-        return found
+        values: FloatArray = self._history(t, derivative)
+        return values
 
     def row(self, speed: float) -> FloatArray:
         """Return the numbers asked for at a speed [rad/s]: frequencies, or `TIP`; (numbers,).
@@ -102,8 +102,8 @@ class Reference:
         """
         if self.case.asked is Asked.BACKBONE:
             return self.frequency_at([row.amplitude], row.speed)
-        known = self.row(row.speed)
-        return known if self.case.asked is Asked.STEADY else known[row.number - 1 : row.number]
+        values = self.row(row.speed)
+        return values if self.case.asked is Asked.STEADY else values[row.number - 1 : row.number]
 
     def frequency_at(self, amplitudes: ArrayLike, speed: float | None = None) -> FloatArray:
         """Return ω_NL [rad/s] of the exact orbits whose peaks |q|/L are `amplitudes`, alike.
@@ -124,13 +124,17 @@ class Reference:
         speed = self.case.rotation.omega if speed is None else speed
         data = _shipped() if self.theory == BERNOULLI_EULER else None
         blade, a = self.case.blade, np.asarray(amplitudes, dtype=float)
-        known = {one: data and data.frequency_at(blade, speed, one) for one in a.ravel().tolist()}
-        missing = sorted(one for one, here in known.items() if here is None)
+        frequencies = {
+            one: data and data.frequency_at(blade, speed, one) for one in a.ravel().tolist()
+        }
+        missing = sorted(one for one, here in frequencies.items() if here is None)
         if missing:
             # One backbone, for orbits are found from their neighbors.
-            found = periodic_orbits(blade, speed, missing, theory=self.theory)
-            known.update(zip(missing, found.frequency.tolist(), strict=True))
-        return np.array([known[one] for one in a.ravel().tolist()], dtype=float).reshape(a.shape)
+            orbits = periodic_orbits(blade, speed, missing, theory=self.theory)
+            frequencies.update(zip(missing, orbits.frequency.tolist(), strict=True))
+        return np.array([frequencies[one] for one in a.ravel().tolist()], dtype=float).reshape(
+            a.shape
+        )
 
 
 @lru_cache(maxsize=64)  # the histories of a theory take minutes, and all codes of a table ask
@@ -153,19 +157,19 @@ def reference(case: Case, theory: Theory = BERNOULLI_EULER) -> Reference:
     """
     data = _shipped()
     named = case.theory_of(theory).name
-    bound, source, found = COMPUTED_BOUND, f"computed from the exact beam, {named}", None
+    bound, source, history = COMPUTED_BOUND, f"computed from the exact beam, {named}", None
     if case.asked is not Asked.HISTORY:
         here = data.bound(case, theory) if data else None
         if data and here is not None:
             bound, source = here, data.source
         elif case.asked is Asked.STEADY:
             bound = max(row_of(case, theory, speed)[1] for speed in case.speeds)
-    elif data and (known := data.history(case, theory)):
-        (found, bound), source = known, data.source
+    elif data and (shipped_one := data.history(case, theory)):
+        (history, bound), source = shipped_one, data.source
     else:
         samples = sampled_history(case, theory)
-        found, bound = spline(samples.time, samples.q), samples.error
-    return Reference(case=case, theory=theory, bound=bound, source=source, _history=found)
+        history, bound = spline(samples.time, samples.q), samples.error
+    return Reference(case=case, theory=theory, bound=bound, source=source, _history=history)
 
 
 def _shipped() -> Shipped | None:

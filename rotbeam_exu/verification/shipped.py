@@ -42,9 +42,9 @@ def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
 
 def key(case: Case, theory: Theory) -> tuple[object, ...]:
     """Return what makes a history, or a table."""
-    asked = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
+    table = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
     kick = (case.kick,) if case.kick else ()
-    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *asked, *kick)
+    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *table, *kick)
     theory = case.theory_of(theory)
     return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 
@@ -54,8 +54,8 @@ def _stated(value: DataclassInstance | type[DataclassInstance]) -> dict[str, obj
 
     A blade that learns to have more then states the same as before.
     """
-    told = (one for one in fields(value) if one.init)  # others follow from these
-    parts = ((one.name, getattr(value, one.name), one.default) for one in told)
+    parameters = (one for one in fields(value) if one.init)  # others follow from these
+    parts = ((one.name, getattr(value, one.name), one.default) for one in parameters)
     return {name: part for name, part, default in parts if part != default or not _is_nothing(part)}
 
 
@@ -124,15 +124,19 @@ class Shipped:
 
         Of a history or a backbone the frequencies of a table of the same blade.
         """
-        asked = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
-        for own in CASES.values():
-            alike = (own.blade, own.columns, own.asked) == (case.blade, case.columns, asked)
-            alike = alike and (asked is Asked.FREQUENCIES or own.loads == case.loads)
-            if not alike or speed not in own.speeds or case.count > own.count:
+        quantity = Asked.STEADY if case.asked is Asked.STEADY else Asked.FREQUENCIES
+        for case_here in CASES.values():
+            alike = (case_here.blade, case_here.columns, case_here.asked) == (
+                case.blade,
+                case.columns,
+                quantity,
+            )
+            alike = alike and (quantity is Asked.FREQUENCIES or case_here.loads == case.loads)
+            if not alike or speed not in case_here.speeds or case.count > case_here.count:
                 continue
-            k = self._of["table"].get(said(key(own, theory)))
+            k = self._of["table"].get(said(key(case_here, theory)))
             if k is not None:
-                here = self.data["row"][k, own.speeds.index(speed)]
+                here = self.data["row"][k, case_here.speeds.index(speed)]
                 return np.asarray(here[np.isfinite(here)])
         return None
 
@@ -146,13 +150,13 @@ class Shipped:
     @cached_property
     def _backbones(self) -> dict[str, tuple[float, interpolate.CubicSpline]]:
         """ω_n and the curvature over a², by the inputs of a backbone."""
-        a, found = self.data["amplitude"], {}
+        a, backbones = self.data["amplitude"], {}
         of_each = (self.data[name] for name in ("backbone_of", "omega_n", "curvature"))
         for of, omega_n, curvature in zip(*of_each, strict=True):
-            known = np.isfinite(curvature)
-            over_square = interpolate.CubicSpline(a[known] ** 2, curvature[known])
-            found[str(of)] = float(omega_n), over_square
-        return found
+            finite = np.isfinite(curvature)
+            over_square = interpolate.CubicSpline(a[finite] ** 2, curvature[finite])
+            backbones[str(of)] = float(omega_n), over_square
+        return backbones
 
     def frequency_at(self, blade: Blade, speed: float, amplitude: float) -> float | None:
         """Return ω_NL [rad/s] at a peak |q|/L; None if it is not here."""
@@ -175,9 +179,9 @@ def shipped() -> Shipped:
     except OSError as error:
         why = f"cannot be read ({error})"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}") from error
-    found = hashlib.sha256(raw).hexdigest()
-    if found != DIGEST:
-        why = f"were damaged or changed (SHA-256 {found[:12]}, not {DIGEST[:12]})"
+    digest = hashlib.sha256(raw).hexdigest()
+    if digest != DIGEST:
+        why = f"were damaged or changed (SHA-256 {digest[:12]}, not {DIGEST[:12]})"
         raise RuntimeError(f"the reference data {FILE} {why}: {_REMEDY}")
     with h5py.File(io.BytesIO(raw)) as file:
         text = h5py.check_string_dtype

@@ -159,10 +159,10 @@ def verify(
         faster = blade.omega_0 / Beam.reference().omega_0
         speeds = tuple(speed * faster for speed in SPEEDS)
         cases = [frequency_case(blade, speeds), spin_up_case(blade, motion, duration)]
-    return judged(handed_in(entry, cases), cases={case.name: case for case in cases})
+    return judged(submission_of(entry, cases), cases={case.name: case for case in cases})
 
 
-def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
+def submission_of(entry: Entry, cases: Sequence[Case]) -> Submission:
     """Run a code over the cases that it does, and return its submission.
 
     Frequencies and steady tips on its own meshes; histories on these meshes at twice its step, and
@@ -181,20 +181,20 @@ def handed_in(entry: Entry, cases: Sequence[Case]) -> Submission:
 
 def _rows(entry: Entry, case: Case) -> Iterator[Row]:
     """Yield the rows of a table that the code has, with its sentence where it fails."""
-    known = {Asked.FREQUENCIES: entry.frequencies, Asked.STEADY: entry.steady_tip}
-    compute = known.get(case.asked)
+    computations = {Asked.FREQUENCIES: entry.frequencies, Asked.STEADY: entry.steady_tip}
+    compute = computations.get(case.asked)
     if compute is None:
         return
     for speed, elements in product(case.speeds, entry.own_meshes):
-        found: list[list[float]] = [[]] * case.count
+        numbers: list[list[float]] = [[]] * case.count
         failure = ""
         try:
-            found = np.reshape(compute(case, speed, elements), (case.count, -1)).tolist()
+            numbers = np.reshape(compute(case, speed, elements), (case.count, -1)).tolist()
         except NotImplementedError:
             continue
         except RuntimeError as error:
             failure = str(error)
-        for number, values in enumerate(found, 1):
+        for number, values in enumerate(numbers, 1):
             yield Row(
                 case=case.name, elements=elements, speed=speed, number=number,
                 values=tuple(values), failure=failure,
@@ -217,15 +217,15 @@ def _run(entry: Entry, case: Case, elements: int, step: float) -> Run:
     nothing, started = np.empty(0), clock.perf_counter()
     run = Run(case=case.name, elements=elements, step=step, time=nothing, q=nothing)
     try:
-        found = entry.simulate(case, elements=elements, step=step)
+        data = entry.simulate(case, elements=elements, step=step)
     except NotImplementedError:
         raise
     except RuntimeError as error:
         return replace(run, failure=str(error))
     # A whole number of steps may end a little later than the case.
-    found = found.isel(time=found["time"].to_numpy() <= case.duration)
-    own = str(found.attrs.get("verdict", "passed"))
-    time = found["time"].to_numpy()
-    q = case.joined([found[name].to_numpy() for name in case.columns])
-    wall, remark = clock.perf_counter() - started, "" if own == "passed" else own
+    data = data.isel(time=data["time"].to_numpy() <= case.duration)
+    verdict = str(data.attrs.get("verdict", "passed"))
+    time = data["time"].to_numpy()
+    q = case.joined([data[name].to_numpy() for name in case.columns])
+    wall, remark = clock.perf_counter() - started, "" if verdict == "passed" else verdict
     return replace(run, time=time, q=q, wall=wall, remark=remark)

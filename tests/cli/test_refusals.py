@@ -71,7 +71,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("figure 8 --config ../blade.toml", "Unknown option: --config"),
         ("figure 13 --style sepia", "unknown style 'sepia'; known are house, journal, grey"),
         ("verify --element cabel", "unknown element 'cabel'; known are 'cable', "),
-        ("backbone --omega 6 --variant frn", "variant must be one of CI, CE"),
+        ("backbone --omega 6 --variant frn", "variant must be one of "),
         ("backbone --omega 6 --mode 2 --variant FrE", "the reduced models are of lag 1"),
         ("backbone --omega 6 --format text", 'Choose from: "table", "csv"'),
         ("animate --beside cable", "linear"),

@@ -39,7 +39,7 @@ def test_exudyn_returns_after_the_predicted_period(beam, omega, amplitude):
 @pytest.mark.parametrize(
     ("model", "close"),
     # Pinned frames of this number are off by their own order, the other by mesh and shear. The
-    # cable returns after a period above, exact elements stay on their orbit in test_shear.
+    # cable returns after a period above, exact elements stay on their orbit in test_reissner.
     [(Ancf3(), 3e-3), (Substructures(frame="pinned"), 2e-2)],
     ids=str,
 )

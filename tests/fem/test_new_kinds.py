@@ -37,7 +37,7 @@ from rotbeam_exu.runs.attributes import (
 )
 from rotbeam_exu.verification.cases import spin_up_case
 from rotbeam_exu.verification.entries import formulation_entry
-from rotbeam_exu.verification.verify import handed_in
+from rotbeam_exu.verification.verify import submission_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -368,7 +368,7 @@ def test_a_new_case_of_the_benchmark_is_handed_in_whole(beam):
         spin_up_case(blade.with_damping(Damping(external=0.05)), MOTION, 3.0),
         loads=(TipForce(amplitude=0.5, frequency=3.0),),
     )
-    run = handed_in(formulation_entry(Cable(), elements=4, step=4e-3), [case]).runs[-1]
+    run = submission_of(formulation_entry(Cable(), elements=4, step=4e-3), [case]).runs[-1]
     exact = spin_up_response(case.blade, MOTION, run.time, tolerance=1e-3, loads=case.loads).q
     assert run.elements == 8
     # Eight cables at 8 ms; without the mass, the angle, drag or the force 0.05 or more.

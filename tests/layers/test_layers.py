@@ -1,4 +1,4 @@
-"""Who may import whom: what keeps the theory free of Exudyn, and each room free of those above."""
+"""Who may import whom: what keeps the theory free of Exudyn, and each part free of those above."""
 
 import ast
 import graphlib
@@ -12,14 +12,15 @@ from docs._ext.derivation import imports_of, in_order, modules
 
 ROOT = Path(__file__).parents[2]
 
-# From the ground up: a room imports from rooms below it only, and from itself.
-FLOORS = {
+# From the ground up: a part imports from parts below it only, and from itself.
+LAYERS = {
     "analytic": [
         {"arrays", "description", "lazily", "letters", "threads", "warning"},
         {"input_checks", "quadrature", "methods", "plotting"},
         {"motion", "settled", "theory"},
         {"parts", "section", "unit_blade", "loads", "ramps"},
         {"shape_functions", "section_shape", "station_section"},
+        {"blade_data"},
         {"blade", "meshed_section", "section_shapes"},
         {"beam", "blade_checks"},
         {"reduced", "exact"},  # neither knows the other
@@ -38,7 +39,7 @@ ALLOWED = {
 }
 
 
-KNOWN = modules(*FLOORS)
+KNOWN = modules(*LAYERS)
 
 
 @cache
@@ -57,35 +58,35 @@ def forbidden(name, target):
         return f"{path} is theory and imports {library}"
     if library != package or target == package:
         return ""
-    floors = [(floor, room) for floor, rooms in enumerate(FLOORS[package]) for room in rooms]
-    place = {room: floor for floor, room in floors}
+    layers = [(layer, part) for layer, parts in enumerate(LAYERS[package]) for part in parts]
+    place = {part: layer for layer, part in layers}
     above, below = (text.split(".")[1] if "." in text else "" for text in (name, target))
     if above and above != below and place[below] >= place[above]:
-        return f"{path} imports {target}, from a room that is not below its own"
+        return f"{path} imports {target}, from a part that is not below its own"
     return ""
 
 
 # Inside `exact` too; a study that a result is asked for is imported then, inside the function.
-ROOMS_OF_EXACT = ("continuum", "linear", "stability", "free", "driven")
+PACKAGES_OF_EXACT = ("continuum", "linear", "stability", "free", "driven")
 
 
-def test_the_rooms_of_the_exact_beam_stand_on_each_other():
+def test_the_parts_of_the_exact_beam_stand_on_each_other():
     folder = ROOT / "analytic" / "exact"
     assert {path.name for path in folder.iterdir() if path.is_dir()} - {"__pycache__"} == set(
-        ROOMS_OF_EXACT
+        PACKAGES_OF_EXACT
     )
     for path in folder.glob("*/*.py"):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.ImportFrom) and node.level == 2 and node.module:
                 below = node.module.partition(".")[0]
-                places = [ROOMS_OF_EXACT.index(room) for room in (path.parent.name, below)]
+                places = [PACKAGES_OF_EXACT.index(part) for part in (path.parent.name, below)]
                 assert places[1] < places[0], f"{path.name} imports {node.module}"
 
 
-def test_every_room_has_a_floor_no_arrow_points_up_and_each_library_has_its_room():
-    for package, floors in FLOORS.items():
-        rooms = {name.split(".")[1] for name in KNOWN if name.startswith(f"{package}.")}
-        assert rooms == set().union(*floors)
+def test_every_room_has_a_layer_no_arrow_points_up_and_each_library_has_its_room():
+    for package, layers in LAYERS.items():
+        parts = {name.split(".")[1] for name in KNOWN if name.startswith(f"{package}.")}
+        assert parts == set().union(*layers)
     assert [why for arrow in arrows() if (why := forbidden(*arrow))] == []
 
 
@@ -108,8 +109,8 @@ def test_an_import_the_wrong_way_is_found(name, target):
 
 def test_no_other_room_takes_exudyn_from_where_it_is_imported_lazily():
     taking = re.compile(r"^from \.+lazily import .*\b(exudyn|items)\b", re.MULTILINE)
-    rooms = {name.split(".")[1] for name in KNOWN if taking.search(KNOWN[name].read_text("utf-8"))}
-    assert rooms == {"fem"}
+    parts = {name.split(".")[1] for name in KNOWN if taking.search(KNOWN[name].read_text("utf-8"))}
+    assert parts == {"fem"}
 
 
 def test_a_command_writes_its_results_by_a_job():

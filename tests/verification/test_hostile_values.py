@@ -9,7 +9,7 @@ import pytest
 from rotbeam_exu.cli import INTERNAL
 from rotbeam_exu.cli import judge as room
 from rotbeam_exu.verification.convergence import converged
-from rotbeam_exu.verification.outcomes import Outcome, found_of
+from rotbeam_exu.verification.outcomes import Outcome, finding_of
 from rotbeam_exu.verification.submission import LONGEST_NAME, Declaration
 from rotbeam_exu.verification.submission_files import read_submission, write_submission
 from rotbeam_exu.verification.submission_files.faults import MalformedSubmissionError
@@ -74,7 +74,7 @@ def test_runs_of_any_size_have_a_limit_or_none():
         order = rng.choice([None, 0.1, 2.0, 20.0])
         with np.errstate(over="raise", invalid="raise", divide="raise"):
             fit = converged(n, h, values, declared=(order, order))
-            found = found_of(fit, tolerance=1e-3, bound=1e-9, where="here")
+            found = finding_of(fit, tolerance=1e-3, bound=1e-9, where="here")
         assert isinstance(found.outcome, Outcome)
 
 

@@ -10,7 +10,7 @@ from analytic.input_checks import RotbeamWarning
 from rotbeam_exu.verification.cases import frequency_case
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Outcome
-from rotbeam_exu.verification.verify import Entry, handed_in
+from rotbeam_exu.verification.verify import Entry, submission_of
 
 
 def of_frequency(difference, power, size=0.05, higher=0.0, **options):
@@ -25,7 +25,7 @@ def of_frequency(difference, power, size=0.05, higher=0.0, **options):
 
 def finding(entry, speeds=(0.0, 6.0)):
     case = frequency_case(Beam.reference(), speeds)
-    found = judged(handed_in(entry, [case]), cases={"L": case})
+    found = judged(submission_of(entry, [case]), cases={"L": case})
     return found.findings["L"]["linear frequency"]
 
 

@@ -15,7 +15,7 @@ from rotbeam_exu.verification.mistakes import mistakes_in, most_left
 from rotbeam_exu.verification.mistakes.forces import FORCES, Lacking, without
 from rotbeam_exu.verification.mistakes.histories import RAMPS, mistake_in_history
 from rotbeam_exu.verification.mistakes.tables import mistake_in_table
-from rotbeam_exu.verification.outcomes import found_of
+from rotbeam_exu.verification.outcomes import finding_of
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import (
     Declaration,
@@ -218,7 +218,7 @@ def test_a_mistake_may_leave_a_third_and_the_error_of_the_finest_run():
     """Of meshes of second order, which tend to 0.1 with an error of 1e-3 on the finest."""
     n = np.array([8, 16, 32, 64])
     runs = converged(n.tolist(), None, (0.1 + 1e-3 * (64 / n) ** 2).tolist())
-    finding = found_of(runs, tolerance=1e-2, bound=0.0, where="here")
+    finding = finding_of(runs, tolerance=1e-2, bound=0.0, where="here")
     assert most_left(1e-2, finding) == pytest.approx(1e-2 / 3.0 + 1e-3, rel=1e-3)
     assert most_left(1e-4, finding) == pytest.approx(1e-4 / 3.0 + 1e-4, rel=1e-9)
     alone = replace(finding, runs=None)

@@ -10,8 +10,8 @@ from rotbeam_exu.verification.case import SpaceCase
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order, converged
 from rotbeam_exu.verification.judgement import judged
-from rotbeam_exu.verification.outcomes import Finding, Outcome, _rounded, found_of, worst_of
-from rotbeam_exu.verification.verify import Entry, handed_in
+from rotbeam_exu.verification.outcomes import Finding, Outcome, _rounded, finding_of, worst_of
+from rotbeam_exu.verification.verify import Entry, submission_of
 
 
 def known(limit, bar, *, finest=0.5, growths=0, steps=(0.0, 0.0)):
@@ -41,7 +41,7 @@ def test_a_code_is_right_if_its_limit_and_all_bars_are_within_the_tolerance(
     limit, bar, bound, outcome
 ):
     """The tolerance is a quarter."""
-    found = found_of(known(limit, bar), tolerance=0.25, bound=bound, where="here")
+    found = finding_of(known(limit, bar), tolerance=0.25, bound=bound, where="here")
     assert found.outcome is outcome
     assert (found.model_difference, found.difference, found.bound) == (limit, 0.5, bound)
     assert found.within == abs(limit) + bar + bound
@@ -54,17 +54,19 @@ def test_what_grows_does_not_converge_if_it_grows_twice_or_is_far_off():
         (0, 30.0, Outcome.UNDECIDED),
     ):  # fmt: skip
         runs = known(0.5, 0.5, growths=growths, finest=finest)
-        found = found_of(runs, tolerance=0.25, bound=0.0, where="here")
+        found = finding_of(runs, tolerance=0.25, bound=0.0, where="here")
         assert found.outcome is outcome
         assert ("does not converge here" in found.note) == (outcome is Outcome.DIFFERS)
     # What is known well enough is right, however it came there.
-    assert found_of(known(0.0, 0.1, growths=2), tolerance=0.25, bound=0.0, where="").outcome.passed
+    assert finding_of(
+        known(0.0, 0.1, growths=2), tolerance=0.25, bound=0.0, where=""
+    ).outcome.passed
 
 
 @pytest.mark.parametrize("limit", [0.0, 0.5])
 def test_one_step_alone_decides_nothing(limit):
     runs = known(limit, 0.0, steps=(1e-3, 1e-3))
-    found = found_of(runs, tolerance=0.25, bound=0.0, where="here")
+    found = finding_of(runs, tolerance=0.25, bound=0.0, where="here")
     assert found.outcome is Outcome.UNDECIDED
     assert "refine it" in found.note
 
@@ -87,7 +89,7 @@ def test_what_is_undecided_says_which_runs_would_decide(runs, said):
     def judged(n, h):
         values = 0.02 * size * (32 / n) ** 2 + 2e4 * h**2
         fit = converged(n, None if steps is None else h, values, declared=(2.0, 2.0))
-        return found_of(fit, tolerance=5e-3, bound=0.0, where="here")
+        return finding_of(fit, tolerance=5e-3, bound=0.0, where="here")
 
     found = judged(n, h)
     assert found.outcome is Outcome.UNDECIDED
@@ -122,7 +124,7 @@ def test_a_remedy_refines_the_finest_run_by_its_orders(limit, in_mesh, in_step, 
         steps=np.array([4e-3, 2e-3, 1e-3]), in_mesh=np.array([0.4, 0.2, in_mesh]),
         in_step=np.array([0.4, 0.2, -in_step]),
     )  # fmt: skip
-    found = found_of(runs, tolerance=0.5, bound=0.0, where="here")
+    found = finding_of(runs, tolerance=0.5, bound=0.0, where="here")
     assert found.outcome is Outcome.UNDECIDED
     assert found.note.endswith(said)
 
@@ -132,7 +134,7 @@ def test_numbers_of_elements_that_are_advised_have_two_digits_and_are_even():
 
 
 def test_a_reference_that_is_not_known_well_enough_is_named():
-    found = found_of(known(0.0, 0.1), tolerance=0.25, bound=0.2, where="in B", of_what="ω_n")
+    found = finding_of(known(0.0, 0.1), tolerance=0.25, bound=0.2, where="in B", of_what="ω_n")
     assert found.note == "known to 3e-01 only in B: ω_n is known to 2e-01 only"
 
 
@@ -156,7 +158,7 @@ def test_a_code_is_run_on_three_meshes_and_with_three_steps():
         own = {"verdict": "passed" if step < 2e-3 else "drifts"}
         return xr.Dataset({"q": ("time", 0.0 * time)}, {"time": time}, own)
 
-    runs = handed_in(Entry(name="mine", simulate=code, elements=16), [CASES["S1"]]).runs
+    runs = submission_of(Entry(name="mine", simulate=code, elements=16), [CASES["S1"]]).runs
     assert [(run.elements, run.step) for run in runs] == [
         (8, 2e-3), (16, 1e-3), (16, 2e-3), (16, 4e-3), (32, 2e-3)
     ]  # fmt: skip
@@ -180,7 +182,7 @@ def test_a_refusal_of_frequencies_or_of_a_tip_is_told_and_what_is_not_done_is_le
         name="mine", simulate=None, in_space=isinstance(case, SpaceCase), frequencies=refusing,
         steady_tip=refusing,
     )  # fmt: skip
-    submission = handed_in(entry, [case])
+    submission = submission_of(entry, [case])
     assert {row.speed for row in submission.rows} == set(case.speeds[1:])
     assert {row.failure for row in submission.rows} == {
         f"no license at {w:g}" for w in case.speeds[1:]

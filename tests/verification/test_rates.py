@@ -13,7 +13,7 @@ import pytest
 from scipy import special
 
 from rotbeam_exu.verification.convergence import converged
-from rotbeam_exu.verification.outcomes import Outcome, found_of
+from rotbeam_exu.verification.outcomes import Outcome, finding_of
 
 KINDS = "asymptotic", "pre-asymptotic", "oscillating", "noisy"
 PAGES = Path(__file__).parents[2] / "docs" / "howto"
@@ -47,7 +47,7 @@ def drawn(rng, kind, runs, order, off=0.0, tolerance=1.0):
 
 def fitted(values, runs, declared, tolerance=1.0):
     fit = converged(*runs, values, declared=(declared, 2.0))
-    return fit, found_of(fit, tolerance=tolerance, bound=0.0, where="here").outcome
+    return fit, finding_of(fit, tolerance=tolerance, bound=0.0, where="here").outcome
 
 
 def at_most(count, rate):

@@ -14,7 +14,7 @@ from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.submission import Row
 from rotbeam_exu.verification.submission_files import read_submission, write_submission
-from rotbeam_exu.verification.verify import handed_in
+from rotbeam_exu.verification.verify import submission_of
 
 
 def the_same(submission, folder):
@@ -39,7 +39,7 @@ def the_same(submission, folder):
 @pytest.mark.slow
 def test_the_cable(tmp_path):
     entry = replace(formulation_entry(Cable(), elements=8, step=4e-3), meshes=(4, 8, 16))
-    found = the_same(handed_in(entry, [CASES["L"], CASES["S1"], CASES["O"]]), tmp_path)
+    found = the_same(submission_of(entry, [CASES["L"], CASES["S1"], CASES["O"]]), tmp_path)
     # Such coarse meshes decide the orbit alone.
     assert found.outcome_of("O") is Outcome.REFERENCE
     assert found.passed is None
@@ -50,7 +50,7 @@ def test_tolerances_are_judged_as_steps_are(made_of_the_exact_answer, tmp_path):
 
     Fifteen seconds hold no whole number of 16 ms: what is beyond is left out in either way.
     """
-    fixed = handed_in(made_of_the_exact_answer(step=8e-3), [CASES["S1"]])
+    fixed = submission_of(made_of_the_exact_answer(step=8e-3), [CASES["S1"]])
     assert all(run.time[-1] <= 15.0 for run in fixed.runs)
     runs = [replace(run, step=math.nan, tolerance=run.step) for run in fixed.runs]
     found = the_same(replace(fixed, runs=tuple(runs)), tmp_path)
@@ -69,7 +69,7 @@ def test_digits_that_are_missing_are_in_the_floor(made_of_the_exact_answer):
     """Of q(t) in m over max|q|, of frequencies in rad/s over the reference's."""
     true = reference(CASES["L"]).first_frequency(6.0)
     meshes = [Row(elements=n, speed=6.0, values=(true * (1.0 + n**-4.0),)) for n in (8, 16, 32)]
-    fine = handed_in(made_of_the_exact_answer(), [CASES["S1"]])
+    fine = submission_of(made_of_the_exact_answer(), [CASES["S1"]])
     fine = replace(fine, rows=tuple(meshes))
     off = replace(
         fine,

@@ -107,8 +107,8 @@ class StrainFunctions:
     @property
     def reach(self) -> tuple[int, ...]:
         """Numbers of polynomials, with those that are made up for."""
-        own = self.bending, self.torsion, self.axial
-        return own if self.answers is None else self.answers.reach
+        counts = self.bending, self.torsion, self.axial
+        return counts if self.answers is None else self.answers.reach
 
     def refined(self, caused: FloatArray | None = None) -> StrainFunctions:
         """Return half as many functions again, one more at least; of a table see `beside`."""
@@ -183,12 +183,12 @@ class StrainFunctions:
         result[:, 5, 0:bending:2] = result[:, 4, 1:bending:2] = moments.forces(x)
         if self.answers is not None:
             result[..., sum(self.counts) :] = self.answers.at(x)
-        for rows, own in self._blocks[1:]:
+        for rows, columns in self._blocks[1:]:
             if rows == [3]:
-                result[:, 3, own] = blade.torques(own.stop - own.start, x)
+                result[:, 3, columns] = blade.torques(columns.stop - columns.start, x)
             else:
                 along = shape_functions(blade, self.axial * blade.panel_count, "axial")
-                result[:, rows[0], own] = along.forces(x)
+                result[:, rows[0], columns] = along.forces(x)
         return result
 
     @cached_property
@@ -204,26 +204,26 @@ class StrainFunctions:
         return self.grid if self.blade.answers else self.blade.grid(2 * self.bending, 14)
 
     @cached_property
-    def _own(self) -> tuple[FloatArray, FloatArray]:
+    def _orthonormal(self) -> tuple[FloatArray, FloatArray]:
         """The matrix that makes each family orthonormal, and the stiffness of all, (n, n) each."""
         grid = self._energy_grid
         soft = grid.weights[:, None, None] * self.flexibility(grid.points)
         forces = self._forces(grid.points)
-        own = np.diag(np.repeat([0.0, 1.0], [sum(self.counts), self.families[-1]]))
+        turn = np.diag(np.repeat([0.0, 1.0], [sum(self.counts), self.families[-1]]))
         for rows, block in self._blocks:
             root = np.linalg.cholesky(soft[:, rows][:, :, rows])
             columns = np.swapaxes(root, 1, 2) @ forces[:, rows, block]
-            own[block, block] = _triangle(columns.reshape(-1, columns.shape[-1]))
-        forces = forces @ own
+            turn[block, block] = _triangle(columns.reshape(-1, columns.shape[-1]))
+        forces = forces @ turn
         stiffness = np.einsum("pik,pil->kl", forces, soft @ forces, optimize=True)
         for _, block in self._blocks:
             stiffness[block, block] = np.eye(block.stop - block.start)
-        return own, stiffness
+        return turn, stiffness
 
     @property
     def stiffness(self) -> FloatArray:
         """The elastic energy is ½ q·K q, (n, n): the identity where the section couples nothing."""
-        return self._own[1]
+        return self._orthonormal[1]
 
     @cached_property
     def damping(self) -> FloatArray:
@@ -249,14 +249,14 @@ class StrainFunctions:
 
     def forces(self, x: FloatArray) -> FloatArray:
         """Return forces and moments of the functions at `x`, (places, 6, n)."""
-        return np.asarray(self._forces(x) @ self._own[0])
+        return np.asarray(self._forces(x) @ self._orthonormal[0])
 
     def at(self, x: FloatArray) -> Strains:
         """Return the functions at material points `x`."""
         soft = self.flexibility(x)
         # In memory the places come last, as in all fields.
-        found = (soft @ self.forces(x)).transpose(1, 2, 0).copy()
-        strains = np.swapaxes(found, 1, 2)
+        conjugate = (soft @ self.forces(x)).transpose(1, 2, 0).copy()
+        strains = np.swapaxes(conjugate, 1, 2)
         return Strains(
             gamma=strains[:3],
             K=strains[3:],
@@ -277,18 +277,18 @@ class StrainFunctions:
         mass = evaluated(blade.mass, x)
         places = np.concatenate((x, positions))
         turned = blade.section_frames(places)
-        own, (A, C) = np.zeros((3, places.size)), np.zeros((2, 3, 3, places.size))
-        own[:, : x.size], J = blade.inertia_about(x, self.slenderness)
+        center, (A, C) = np.zeros((3, places.size)), np.zeros((2, 3, 3, places.size))
+        center[:, : x.size], J = blade.inertia_about(x, self.slenderness)
         whole, A[:, :, : x.size] = np.ones_like(places), weights * J
         if not (blade.turns or self.theory.rotary_inertia):
             C, whole[: x.size] = float(self.theory.trapeze) * A, 0.0
             A[1:, 1:] = 0.0
-        own[1:, x.size :], A[2, 2, x.size :] = centers.T, inertias
+        center[1:, x.size :], A[2, 2, x.size :] = centers.T, inertias
         air = blade.damping[2]
         return Masses(
             places=places,
             mass=np.concatenate((weights * mass, lumped)),
-            offset=np.einsum("ijp,jp->ip", turned, own),
+            offset=np.einsum("ijp,jp->ip", turned, center),
             inertia=np.einsum("ikp,klp,jlp->ijp", turned, A, turned),
             carried=np.einsum("ikp,klp,jlp->ijp", turned, C, turned),
             whole=whole,

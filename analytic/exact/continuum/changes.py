@@ -48,7 +48,7 @@ class Changes:
     """
 
     def __init__(self, model: Any, at: State, motion: Rates, W: Any, W_dot: Any) -> None:
-        own = model.strains
+        strains = model.strains
         # The same for all coordinates.
         at = State(*(field[..., None, :] for field in at))
         motion = Rates(*(field[..., None, :] for field in motion))
@@ -56,10 +56,10 @@ class Changes:
         self._whole = model.masses.whole
         self._W, self._W_dot = W[..., None], W_dot[..., None]
         self._integral: Callable[[FloatArray], FloatArray] = model.integrals.of
-        self._K = own.K.swapaxes(1, 2)
-        gamma = np.repeat(own.gamma.swapaxes(1, 2)[:, None], len(at.K[0]), axis=1)
-        if own.trapezes:
-            gamma[0] -= own.trapeze * (at.K[0] + own.twist) * self._K[0]
+        self._K = strains.K.swapaxes(1, 2)
+        gamma = np.repeat(strains.gamma.swapaxes(1, 2)[:, None], len(at.K[0]), axis=1)
+        if strains.trapezes:
+            gamma[0] -= strains.trapeze * (at.K[0] + strains.twist) * self._K[0]
         self.bend, self._stretch = turned(at.frame, self._K[:, None]), turned(at.frame, gamma)
         self.turn_m = self._integral(self.bend)
         self.turn = model.at_points(self.turn_m)
@@ -104,11 +104,11 @@ class Changes:
 
     def _shortening(self, turning: FloatArray) -> FloatArray | float:
         """Return the change -k² K̇1 Ψ1 R e1 of R Γ̇ with q."""
-        own = self._model.strains
-        if not own.trapezes:
+        strains = self._model.strains
+        if not strains.trapezes:
             return 0.0
         rate = turned_back(self._at.frame, turning)[0]
-        return np.asarray(self._at.frame[:, 0] * (-own.trapeze * rate * self._K[0]))
+        return np.asarray(self._at.frame[:, 0] * (-strains.trapeze * rate * self._K[0]))
 
     def _of_rates(self) -> tuple[FloatArray, FloatArray]:
         """Return the derivatives of A_c and of A α + Ω × A Ω to q̇."""
@@ -182,7 +182,7 @@ class Changes:
 
     def geometric(self, pulled: FloatArray, force: FloatArray, moment: FloatArray) -> FloatArray:
         """Return the part of K from forces that the basis functions turn into, (samples, n, n)."""
-        at, own = self._at, self._model.strains
+        at, strains = self._at, self._model.strains
         F, M = force[..., None, :], moment[..., None, :]
         # -(Φ_l × a_k) · M = -(a_k × M) · Φ_l
         work = -np.swapaxes(
@@ -190,9 +190,9 @@ class Changes:
         )
         work -= _contracted(self.turn, cross(self.slope, F))
         work += _contracted(self.turn_m, cross(self._offset, pulled[..., None, :]))
-        if own.trapezes:
-            along = own.trapeze * turned_back(at.frame, F)[0]
-            work += (along * self._K[0]) @ own.K[0]
+        if strains.trapezes:
+            along = strains.trapeze * turned_back(at.frame, F)[0]
+            work += (along * self._K[0]) @ strains.K[0]
         return work
 
 

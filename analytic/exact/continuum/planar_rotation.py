@@ -75,8 +75,8 @@ def _unit(blade: Blade, theory: Theory) -> UnitBlade:
     return replace(unit, rotary=in_units(unit.bending, 1.0, 1.0 / blade.slenderness))
 
 
-def on_more(q: FloatArray, own: tuple[int, ...], others: tuple[int, ...]) -> FloatArray:
+def on_more(q: FloatArray, counts: tuple[int, ...], finer: tuple[int, ...]) -> FloatArray:
     """Return coordinates of the same shape where each family has as many functions or more."""
-    parts = np.split(q, np.cumsum(own)[:-1], axis=-1)
-    more = [[(0, 0)] * (q.ndim - 1) + [(0, n - m)] for m, n in zip(own, others, strict=True)]
+    parts = np.split(q, np.cumsum(counts)[:-1], axis=-1)
+    more = [[(0, 0)] * (q.ndim - 1) + [(0, n - m)] for m, n in zip(counts, finer, strict=True)]
     return np.concatenate(list(map(np.pad, parts, more)), axis=-1)

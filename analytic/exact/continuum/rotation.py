@@ -22,6 +22,7 @@ from ...settled import refined
 from ...theory import Theory, require_theory
 from .answers import forces_caused
 from .basis import StrainFunctions
+from .equilibrium import Equilibrium
 from .planar import Continuum
 from .planar_rotation import on_more, require_shear, resolved_model
 from .space import SpaceContinuum
@@ -33,12 +34,7 @@ FUNCTIONS = 12
 GAUGES = {"lag": 1, "flap": 2}
 """Components of the tip's place whose peak may be called the amplitude."""
 Model = Continuum | SpaceContinuum
-_SHORTEST = 1e-4  # step of speed and load, over what of them is reached
 _LARGEST_KICK = 0.1
-_STEPS = 60  # of speed and load
-_CHANGES, _EXACT = 12, 1e-12  # of Newton's method, and the last over the size of the state
-_CONTRACTION = 0.25
-_NEAR = 1e-3  # change over the size of the state, from which on the tangent serves
 _MODES = 6  # whose answers a refinement adds
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 
@@ -221,66 +217,7 @@ class SteadyBlade:
 
     @cached_property
     def _steady(self) -> tuple[FloatArray, Tangent]:
-        found = None if self.near is None else self._newton(self.near, 1.0)
-        if found is not None:
-            return found
-        # A straight blade stays straight, and nothing is to be followed.
-        still = self.push is None and (self.rate == 0.0 or self.model.uncoupled)
-        q, reached, step = np.zeros(self.size), float(still), 1.0
-        for _ in range(_STEPS):
-            share = min(reached + step, 1.0)
-            found = self._newton(q, share)
-            if found is not None:
-                if share == 1.0:
-                    return found
-                q, reached, step = found[0], share, 2.0 * step
-            else:
-                step = 0.5 * (share - reached)
-                if step <= _SHORTEST * reached:
-                    raise ValueError(self._lost("ends or becomes unstable", reached))
-        raise ValueError(self._lost(f"is followed in {_STEPS} steps and is still", reached))
-
-    def _lost(self, how: str, reached: float) -> str:
-        """Return a sentence on the steady state that is followed up to shares of speed and load."""
-        at, remedies = [], []
-        if self.rate:
-            at.append(f"w_bar = {reached * self.rate:.4g} of {self.rate:.4g}")
-            remedies.append("rotate slower")
-        if self.push is not None:
-            at.append(f"{reached:.4g} of the load")
-            remedies.append("load it less, and check its unit")
-        return f"the steady state {how} at {' and '.join(at)}: {', or '.join(remedies)}"
-
-    def _newton(self, q: FloatArray, share: float) -> tuple[FloatArray, Tangent] | None:
-        """Return the state that `q` (n,) goes over into at shares of speed and load; its tangent.
-
-        None where it may be one of another branch: the tangent must stay stable, and the second
-        change be less than a quarter of the first, as it is where the theorem of Newton and
-        Kantorovich holds (Deuflhard, Newton Methods for Nonlinear Problems, 2011).
-        """
-        still, rate = np.zeros((1, self.size)), share * self.rate
-        push = None if self.push is None else share * self.push
-        turned = push is not None and push[2].any()
-        sizes: list[float] = []
-        by = Driven(rate, push=push)
-        for _ in range(_CHANGES):
-            near = self.model.has_dear_tangent and bool(sizes)
-            near = near and sizes[-1] <= _NEAR * float(np.linalg.norm(q))
-            if near:
-                residual = self.model.residual(q[None], still, still, by)[0]
-            else:
-                tangent = self.model.tangent(q[None], still, still, by)
-                residual = tangent.residual[0]
-                if not _positive(tangent.stiffness[0], symmetric=not turned):
-                    return None
-            change = np.linalg.solve(tangent.stiffness[0], residual)
-            q = q - change
-            sizes.append(float(np.linalg.norm(change)))
-            if sizes[-1] <= _EXACT * max(float(np.linalg.norm(q)), _EXACT):
-                return q, self.model.tangent(q[None], still, still, by) if near else tangent
-            if len(sizes) == 2 and not sizes[1] <= _CONTRACTION * sizes[0]:
-                return None
-        return None
+        return Equilibrium(self.model, self.rate, self.push).followed(self.near)
 
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the tip's place along the component, from the steady state, (samples,)."""
@@ -352,28 +289,17 @@ class SteadyBlade:
             odd = self.odd[moving]
             coupling = np.where(np.outer(odd, ~odd), skew, 0.0)
             coupling, turn = coupling + coupling.T, np.where(odd, 1.0, 1.0j)
-        inverse, found = reciprocal_modes(0.5 * (K + K.T), coupling, 0.5 * (M + M.T))
+        inverse, modes = reciprocal_modes(0.5 * (K + K.T), coupling, 0.5 * (M + M.T))
         # Some motion has no inertia; the inextensible beam has no axial modes.
         kept = inverse > _MASSLESS
         shapes = np.zeros((self.size, np.count_nonzero(kept)), dtype=np.complex128)
-        shapes[moving] = turn[:, None] * found[:, kept]
+        shapes[moving] = turn[:, None] * modes[:, kept]
         return 1.0 / inverse[kept], shapes
 
     @cached_property
     def tip(self) -> FloatArray:
         """Place of the tip from the clamp in the steady state."""
         return np.asarray(self.model.tip(self.equilibrium[None])[0])
-
-
-def _positive(stiffness: FloatArray, *, symmetric: bool) -> bool:
-    """Whether a state is stable; a moment that keeps its direction has no potential."""
-    if not symmetric:
-        return bool(np.linalg.eigvals(stiffness).real.min() > 0.0)
-    try:
-        np.linalg.cholesky(stiffness)
-    except np.linalg.LinAlgError:
-        return False
-    return True
 
 
 BladeOrbit = Orbit[SteadyBlade]

@@ -25,8 +25,7 @@ coordinates: Su and Cesnik (2011).
 from __future__ import annotations
 
 import math
-from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,13 +34,13 @@ from ...arrays import ComplexArray, FloatArray
 from ...blade import Blade
 from ...methods.system import Tangent
 from ...theory import Theory
-from .basis import StrainFunctions
 from .changes import Changes, Rates, State
+from .space_kinematics import SpaceKinematics
 from .state import Driven, flap_of_kick
-from .vectors import Frames, cross, turned, turned_back
+from .vectors import cross, turned, turned_back
 
 
-class SpaceContinuum:
+class SpaceContinuum(SpaceKinematics):
     """Galerkin discretization of the exact blade in polynomials of its moments and forces.
 
     Samples in time come first in the coordinates (samples, n); residual and tangent are as those
@@ -55,92 +54,6 @@ class SpaceContinuum:
     stiff: ClassVar[bool] = True
     has_dear_tangent: ClassVar[bool] = True
     """Whether one costs many residuals, so that it serves in the steps of time after it."""
-
-    def __init__(self, functions: StrainFunctions) -> None:
-        self.functions = functions
-        self.families, self.size = functions.families, functions.size
-        self.blade = functions.blade
-        grid, masses = functions.grid, functions.masses
-        self.points, self.weights = grid.points, grid.weights
-        self.integrals = self.blade.running(grid, masses.places[grid.points.size :])
-        self._frames = Frames(self.integrals, self.blade.kinks)
-        self.masses = masses
-        self.strains = functions.at(grid.points)
-        self.outboard = {"length": self.weights * (1.0 - self.points), "tip": self.weights}
-
-    def at_points(self, field: FloatArray) -> FloatArray:
-        """Return the part at the grid's points of a field at the masses, (..., points)."""
-        return field[..., : self.points.size]
-
-    def _strains(self, q: FloatArray, at: Any = None) -> tuple[FloatArray, FloatArray]:
-        """Return Γ and K, (3, samples, points)."""
-        own = at or self.strains
-        K = own.initial[:, None] + q @ own.K.swapaxes(1, 2)
-        gamma = q @ own.gamma.swapaxes(1, 2)
-        gamma[0] += 1.0 - 0.5 * own.trapeze * (K[0] ** 2 + 2.0 * own.twist * K[0])
-        return gamma, K
-
-    def _rates(
-        self, K: FloatArray, q_dot: FloatArray, at: Any = None
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return Γ̇ and K̇ of coordinates that change by q̇; of any small change of q as well."""
-        own = at or self.strains
-        change = q_dot @ own.K.swapaxes(1, 2)
-        gamma = q_dot @ own.gamma.swapaxes(1, 2)
-        gamma[0] -= own.trapeze * (K[0] + own.twist) * change[0]
-        return gamma, change
-
-    def _state(self, q: FloatArray) -> State:
-        gamma, K = self._strains(q)
-        frame_m = self._frames.of(K)
-        frame = self.at_points(frame_m)
-        slope = turned(frame, gamma)
-        return State(
-            frame, frame_m, K, slope, self.integrals.of(slope),
-            turned(frame_m, self.masses.offset[:, None]),
-        )  # fmt: skip
-
-    def _clamp(self, by: Driven) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return W, Ẇ and the clamp's place h from the axis of rotation, (3, samples, 1)."""
-        axis, hub = self.blade.axis[:, None, None], self.blade.clamp[:, None, None]
-        w, w_dot = (np.atleast_1d(np.asarray(x, dtype=float))[:, None] for x in by[:2])
-        return axis * w, axis * w_dot, hub
-
-    def _motion(self, at: State, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> Rates:
-        integral = self.integrals.of
-        stretch, bend = self._rates(at.K, q_dot)
-        stretch_rate, bend_rate = self._rates(at.K, q_ddot)
-        stretch_rate[0] -= self.strains.trapeze * bend[0] ** 2
-        turning, stretching = turned(at.frame, bend), turned(at.frame, stretch)
-        twisting, speeding = turned(at.frame, bend_rate), turned(at.frame, stretch_rate)
-        spin_m = integral(turning)
-        spin = self.at_points(spin_m)
-        velocity_m = integral(cross(spin, at.slope) + stretching)
-        spin_rate_m = integral(twisting + cross(spin, turning))
-        spin_rate = self.at_points(spin_rate_m)
-        acceleration = integral(
-            cross(spin_rate, at.slope)
-            + cross(spin, cross(spin, at.slope) + 2.0 * stretching)
-            + speeding
-        )
-        W, W_dot, hub = self._clamp(by)
-        place = hub + at.place_m
-        total = spin_m + W
-        total_rate = spin_rate_m + cross(W, spin_m) + W_dot
-        acceleration = (
-            acceleration
-            + cross(W, 2.0 * velocity_m + cross(W, place))
-            + cross(W_dot, place)
-            + cross(total_rate, at.offset_m)
-            + cross(total, cross(total, at.offset_m))
-        )
-        whole = self.masses.whole
-        turn = spin_m + whole * W
-        turn_rate = spin_rate_m + whole * (total_rate - spin_rate_m)
-        return Rates(
-            turning, stretching, spin, spin_m, velocity_m, spin_rate, total, total_rate,
-            turn, turn_rate, acceleration, twisting, speeding,
-        )  # fmt: skip
 
     def inertia(self, at: State, vector: FloatArray, *, carried: bool = False) -> FloatArray:
         """Return R A Rᵀ times vectors (3, ..., masses), or R C Rᵀ of what the clamp carries."""
@@ -227,9 +140,9 @@ class SpaceContinuum:
     def _work(
         self, at: State, q: FloatArray, q_dot: FloatArray, force: FloatArray, moment: FloatArray
     ) -> FloatArray:
-        own = self.strains
+        strains = self.strains
         inner_force, inner_moment = self._on_strains(at, force, moment)
-        work = np.sum(inner_moment @ own.K + inner_force @ own.gamma, axis=0)
+        work = np.sum(inner_moment @ strains.K + inner_force @ strains.gamma, axis=0)
         held = q @ self.functions.stiffness + q_dot @ self.functions.damping
         return np.asarray(held - work)
 
@@ -262,72 +175,17 @@ class SpaceContinuum:
         parts = np.split(np.abs(q).max(axis=0), (bending, bending + torsion))[: 1 + bool(torsion)]
         sizes = np.max([part.reshape(degrees, -1).max(axis=1) for part in parts], axis=0)
         sizes = np.maximum.accumulate(sizes[::-1])[::-1]
-        wanted, last = within * sizes[0], sizes[-2]
-        if last <= wanted:
+        least, last = within * sizes[0], sizes[-2]
+        if last <= least:
             return self.bending
         fall = np.log(sizes[degrees // 2 - 1] / last) / (degrees - 1 - degrees // 2)
-        more = min(np.ceil(np.log(last / wanted) / fall) if fall else np.inf, degrees)
+        more = min(np.ceil(np.log(last / least) / fall) if fall else np.inf, degrees)
         return int((degrees + more) * self.functions.blade.panel_count)
-
-    def tip(self, q: FloatArray) -> FloatArray:
-        """Return the tip's place r(1) in the root frame, (samples, 3)."""
-        return np.asarray((self._state(q).slope @ self.weights).T)
-
-    @cached_property
-    def _to_tip(self) -> Frames:
-        return Frames(self.blade.running(self.functions.grid, np.ones(1)), self.blade.kinks)
-
-    def _tip_frame(self, q: FloatArray) -> FloatArray:
-        return self._to_tip.of(self._strains(q)[1])[..., -1]
-
-    @cached_property
-    def _unloaded_tip(self) -> FloatArray:
-        return self._tip_frame(np.zeros((1, self.size)))[..., 0]
-
-    def tip_turn(self, q: FloatArray) -> FloatArray:
-        """Return how far the load turns the tip's section out of its upright, (samples,)."""
-        turn = np.einsum("iks,jk->sij", self._tip_frame(q), self._unloaded_tip)
-        return np.asarray(np.arctan2(turn[:, 2, 1], turn[:, 2, 2]))
-
-    def tip_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
-        """Return the tip's velocity in the root frame, (samples, 3)."""
-        at = self._state(q)
-        stretch, bend = self._rates(at.K, q_dot)
-        spin = self.at_points(self.integrals.of(turned(at.frame, bend)))
-        return np.asarray(((cross(spin, at.slope) + turned(at.frame, stretch)) @ self.weights).T)
 
     @property
     def trapeze(self) -> bool:
         """Whether twist shortens the axis."""
         return self.functions.theory.trapeze
-
-    def places(self, q: FloatArray, x: FloatArray) -> FloatArray:
-        """Return the places r of material points `x` in the root frame, (samples, points, 3)."""
-        return np.moveaxis(self._state(q).slope @ self.functions.grid.integral(x).T, 0, -1)
-
-    def standing(self, q: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return places (samples, points, 3) and sections (samples, points, 3, 3) of points `x`.
-
-        In the root frame; axes of sections in columns.
-        """
-        sections = np.einsum("ijsp,jkp->spik", self._frame_at(q, x), self.blade.section_frames(x))
-        return self.places(q, x), sections
-
-    def _frame_at(self, q: FloatArray, x: FloatArray) -> FloatArray:
-        to_x = Frames(self.blade.running(self.functions.grid, x), self.blade.kinks)
-        return to_x.of(self._strains(q)[1])[..., self.points.size :]
-
-    def slopes(
-        self, q: FloatArray, q_dot: FloatArray, x: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return the derivatives of places to `x`, (samples, points, 3), and their rates."""
-        own, frame, K = self.functions.at(x), self._frame_at(q, x), self._strains(q)[1]
-        gamma, bend = self._strains(q, own)
-        turning = turned(self._state(q).frame, self._rates(K, q_dot)[1])
-        spin = turning @ self.functions.grid.integral(x).T
-        slope = turned(frame, gamma)
-        rate = cross(spin, slope) + turned(frame, self._rates(bend, q_dot, own)[0])
-        return np.moveaxis(slope, 0, -1), np.moveaxis(rate, 0, -1)
 
     def tip_gradient(self, q: FloatArray) -> FloatArray:
         """Return the derivatives of the tip's place to the coordinates, (samples, 3, n)."""
@@ -434,8 +292,8 @@ class SpaceContinuum:
     def struck(self, speed: float) -> FloatArray:
         """Return the rates (n,) of a straight blade that flaps as `kicked_state` has it."""
         bending = -speed * flap_of_kick(self.points, 2)
-        found: FloatArray = np.linalg.lstsq(self.strains.K[1], bending)[0]
-        return found
+        rates: FloatArray = np.linalg.lstsq(self.strains.K[1], bending)[0]
+        return rates
 
     def refined(self, caused: FloatArray | None = None) -> SpaceContinuum:
         """Return the discretization on more functions; of a table also of the forces `caused`."""

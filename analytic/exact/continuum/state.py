@@ -160,7 +160,7 @@ def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:
 
     The shape that a uniform load gives a cantilever: its end has neither moment nor force.
     """
-    found: FloatArray = np.polynomial.Polynomial([0.0, 0.0, 2.0, -4.0 / 3.0, 1.0 / 3.0]).deriv(
+    shape: FloatArray = np.polynomial.Polynomial([0.0, 0.0, 2.0, -4.0 / 3.0, 1.0 / 3.0]).deriv(
         derivative
     )(x)
-    return found
+    return shape

@@ -92,14 +92,14 @@ class Frames:
         self._together = []
         for shape in {part.onto.shape for part in parts}:
             which = [k for k, part in enumerate(parts) if part.onto.shape == shape]
-            own, places, onto = zip(
+            points, places, onto = zip(
                 *(
                     (np.r_[one.own], np.r_[one.places], np.column_stack((one.onto, one.weights)))
                     for one in (parts[k] for k in which)
                 ),
                 strict=True,
             )
-            self._together.append((which, np.array(own), np.array(places), np.array(onto)))
+            self._together.append((which, np.array(points), np.array(places), np.array(onto)))
 
     def of(self, curvature: FloatArray) -> FloatArray:
         """Return R at the points and the places, (3, 3, samples, points and places).
@@ -111,18 +111,18 @@ class Frames:
         begins = np.zeros_like(turns)
         begins[0, 0] = 1.0
         alone = []
-        for which, own, _, onto in self._together:
-            alone.append(_from_unit(np.swapaxes(curvature[:, :, own], 1, 2), onto))
+        for which, points, _, onto in self._together:
+            alone.append(_from_unit(np.swapaxes(curvature[:, :, points], 1, 2), onto))
             turns[:, which] = alone[-1][..., -1]
         for k in range(1, self._stretches):
             begins[:, k] = product(begins[:, k - 1], turns[:, k - 1])
             if k - 1 in self._kinks:
                 begins[:, k] = product(begins[:, k], self._kinks[k - 1])
-        found = np.empty((4, samples, self._count))
+        quaternions = np.empty((4, samples, self._count))
         for (which, _, places, _), local in zip(self._together, alone, strict=True):
             here = product(begins[:, which, :, None], local[..., :-1])
-            found[:, :, places] = np.swapaxes(here, 1, 2)
-        return frames(found)
+            quaternions[:, :, places] = np.swapaxes(here, 1, 2)
+        return frames(quaternions)
 
 
 def _quaternion(vector: FloatArray) -> FloatArray:
@@ -141,8 +141,8 @@ def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
     k1, k2, k3 = 0.5 * curvature
     turn, bend, onto = 1j * k1, k2 + 1j * k3, integral.astype(np.complex128)
     back, count = bend.conj(), onto.shape[1]
-    found = np.zeros((2, *k1.shape), dtype=np.complex128)
-    found[0] = 1.0
+    solution = np.zeros((2, *k1.shape), dtype=np.complex128)
+    solution[0] = 1.0
 
     def rates(of: ComplexArray) -> ComplexArray:
         u, v = of
@@ -155,12 +155,12 @@ def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
         system += np.eye(2 * count)
         begin = np.repeat([1.0, 0.0], count)[:, None]
         solved = np.linalg.solve(system, np.broadcast_to(begin, (*k1.shape[:2], 2 * count, 1)))
-        found = np.moveaxis(solved.reshape(*k1.shape[:2], 2, count), 2, 0)
+        solution = np.moveaxis(solved.reshape(*k1.shape[:2], 2, count), 2, 0)
     else:
         for _ in range(_PICARD):
-            last, found = found, rates(found) @ onto[..., :count]
-            found[0] += 1.0
-            if np.abs(found - last).max(initial=0.0) < _SETTLED:
+            last, solution = solution, rates(solution) @ onto[..., :count]
+            solution[0] += 1.0
+            if np.abs(solution - last).max(initial=0.0) < _SETTLED:
                 break
-    u, v = rates(found) @ onto
+    u, v = rates(solution) @ onto
     return np.stack((1.0 + u.real, u.imag, v.real, v.imag))

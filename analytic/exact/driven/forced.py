@@ -159,24 +159,24 @@ def forced_response(
                 f"{load.called} goes around once a turn, at ω itself: give the speeds as omega, "
                 "and no frequencies"
             )
-        asked = _ascending("omega", omega)
-        highest = rotation_speed(float(asked[-1]))
+        values = _ascending("omega", omega)
+        highest = rotation_speed(float(values[-1]))
     else:
-        highest, asked = rotation_speed(omega), _ascending("frequencies", frequencies)
+        highest, values = rotation_speed(omega), _ascending("frequencies", frequencies)
         warn_if_rpm(blade, highest)
     functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
     model = continuum_of(blade, theory, functions, functions // 2)
     steady = rotating_blade(blade, highest, model, gauge)
     if not any(blade.unit.damping):
-        _require_no_resonance(blade, None if by_speed else highest, theory, asked)
+        _require_no_resonance(blade, None if by_speed else highest, theory, values)
     # Deflections are told from the steady state, at changing speeds from that at rest.
     rate = 0.0 if by_speed else steady.rate
     system = DrivenBlade(model=model, rate=rate, component=steady.component, drive=unit)
     least = whole_number("harmonics", harmonics)
     try:
-        found = response_curve(system, asked / blade.frequency_scale, _LARGEST, least, model.tail)
+        marked = response_curve(system, values / blade.frequency_scale, _LARGEST, least, model.tail)
     except NoOrbitError as failed:
-        response, last = None, f" at {asked[0]:g} rad/s"
+        response, last = None, f" at {values[0]:g} rad/s"
         if failed.last:
             response = _packed(blade, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
@@ -187,21 +187,21 @@ def forced_response(
         raise ResponseNotReachedError(
             f"the response to {load} was not found{last}: {failed}; {remedy}", response
         ) from None
-    return _packed(blade, load, theory, found)
+    return _packed(blade, load, theory, marked)
 
 
-def _ascending(name: str, values: Any) -> FloatArray:
-    asked = finite_values(name, values, "rad/s")
-    if asked.size < 2 or asked[0] <= 0.0 or np.any(np.diff(asked) <= 0.0):
+def _ascending(name: str, given: Any) -> FloatArray:
+    values = finite_values(name, given, "rad/s")
+    if values.size < 2 or values[0] <= 0.0 or np.any(np.diff(values) <= 0.0):
         raise ValueError(
-            f"{name} must be two or more, above 0 and ascending [rad/s], got {asked.tolist()}: "
+            f"{name} must be two or more, above 0 and ascending [rad/s], got {values.tolist()}: "
             "the first and the last are the ends of the curve"
         )
-    return asked
+    return values
 
 
 def _require_no_resonance(
-    blade: Blade, omega: float | None, theory: Theory, asked: FloatArray
+    blade: Blade, omega: float | None, theory: Theory, values: FloatArray
 ) -> None:
     """Refuse frequencies that include a mode's, or speeds at which a mode meets a multiple."""
     no_end, remedy = (
@@ -211,7 +211,7 @@ def _require_no_resonance(
     if omega is None:
         slow, fast = (
             math.floor(driven_modes(blade, w, theory=theory).frequencies[0] / w)
-            for w in asked[[0, -1]].tolist()
+            for w in values[[0, -1]].tolist()
         )
         if slow > fast:
             raise ValueError(
@@ -220,15 +220,15 @@ def _require_no_resonance(
         return
     modes = driven_modes(blade, omega, 3, theory=theory)
     for name, frequency in zip(modes.names, modes.frequencies, strict=True):
-        if asked[0] <= frequency <= asked[-1]:
+        if values[0] <= frequency <= values[-1]:
             raise ValueError(
                 f"{no_end} {name} is at {frequency:.6g} rad/s: {remedy}, or periodic_orbits "
                 "for the backbone on which it ends"
             )
 
 
-def _packed(blade: Blade, load: Load, theory: Theory, found: list[Marked]) -> ForcedResponse:
-    orbits, marks = zip(*found, strict=True)
+def _packed(blade: Blade, load: Load, theory: Theory, marked: list[Marked]) -> ForcedResponse:
+    orbits, marks = zip(*marked, strict=True)
     count = max(orbit.harmonics for orbit in orbits)
     harmonics = [np.pad(o.gauge_harmonics, (0, count - o.harmonics)) for o in orbits]
     return ForcedResponse(

@@ -87,14 +87,16 @@ class ForcedResponse(Branch):
     def at(self, frequency: float) -> NDArray[np.intp]:
         """Return the indices of the points at one of the frequencies asked for [rad/s]."""
         frequency = finite_number("frequency", frequency, "rad/s")
-        asked = np.array(self.marks) == "asked"
-        found = np.flatnonzero(asked & np.isclose(self.frequency, frequency, rtol=1e-9, atol=0.0))
-        if not found.size:
+        is_asked = np.array(self.marks) == "asked"
+        points = np.flatnonzero(
+            is_asked & np.isclose(self.frequency, frequency, rtol=1e-9, atol=0.0)
+        )
+        if not points.size:
             raise ValueError(
                 f"the response was not asked for at {frequency:g} rad/s: give it among the "
                 "frequencies"
             )
-        return found
+        return points
 
     def response(self, phase: ArrayLike, i: int) -> FloatArray:
         """Return q/L of point `i` at the phases φ [rad]."""

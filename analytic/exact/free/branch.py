@@ -136,7 +136,7 @@ class OrbitSet:
         Those of motion in the plane, if the orbits are planar; `out_of_plane` has the others.
         Computed when first asked for.
         """
-        return np.array([found.lowest for found in self._stability])
+        return np.array([stability.lowest for stability in self._stability])
 
     @property
     def stable(self) -> NDArray[np.bool_]:
@@ -246,14 +246,14 @@ class OrbitSet:
     @cached_property
     def _courses(self) -> list[FloatArray]:
         """Lag, flap and twist of each orbit, (samples, 3), between some by their Fourier series."""
-        found = []
+        courses = []
         for orbit in self.nondimensional:
             count, model = 8 * orbit.harmonics, orbit.system.model
             q, _, _ = orbit.coordinates(2.0 * np.pi * np.arange(count) / count)
             place = model.places(q, np.ones(1))[:, 0]
             series = np.fft.rfft(np.column_stack((place[:, 1:], model.tip_turn(q))), axis=0)
-            found.append(np.fft.irfft(series, _SAMPLES, axis=0) * _SAMPLES / count)
-        return found
+            courses.append(np.fft.irfft(series, _SAMPLES, axis=0) * _SAMPLES / count)
+        return courses
 
 
 @dataclass(frozen=True, kw_only=True)

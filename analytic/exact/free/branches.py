@@ -96,18 +96,18 @@ def followed_branch(of: ModePath, up_to: float) -> BackboneBranch:
 
 def _main_path(of: ModePath, up_to: float) -> list[BladeOrbit]:
     """Return the orbits on a grid of amplitudes, and the last that there is."""
-    path, found = of.path, []
+    path, orbits = of.path, []
     coarse, fine = np.arange(_GRID, _FINE_FROM, _GRID), np.arange(_FINE_FROM, 1.0, _FINE_GRID)
     grid = np.concatenate((coarse, fine))
     for a in [*grid[grid < up_to - 1e-9].tolist(), up_to]:
         try:
-            found.append(path.at(a))
+            orbits.append(path.at(a))
         except NoOrbitError:
             # In a tongue, or beyond the end.
             if path.nodes[-1].amplitude < a:
                 break
     both = sorted(
-        [*found, *(o for o in path.nodes if o.amplitude < up_to)], key=lambda o: o.amplitude
+        [*orbits, *(o for o in path.nodes if o.amplitude < up_to)], key=lambda o: o.amplitude
     )
     return [
         o

@@ -164,10 +164,10 @@ def _fitted(of: ModePath, top: float) -> BackboneCurve:
     # The highest that it was not made from, where it is worst, one amid, and a low one.
     checked = np.sort(between[[count - 2, count // 2, 1]])
     # Laid in one row, so that a tangent serves its neighbours.
-    asked = np.sort(np.concatenate((at[1:], checked)))
-    orbits, linear = [of.path.laid(a) for a in asked.tolist()], float(of.modes[of.place])
-    found = np.array([[o.frequency / linear, o.gauge_sines[0] / o.amplitude] for o in orbits])
-    made, shown = (found[np.isin(asked, which)] for which in (at, checked))
+    amplitudes = np.sort(np.concatenate((at[1:], checked)))
+    orbits, linear = [of.path.laid(a) for a in amplitudes.tolist()], float(of.modes[of.place])
+    of_orbits = np.array([[o.frequency / linear, o.gauge_sines[0] / o.amplitude] for o in orbits])
+    made, shown = (of_orbits[np.isin(amplitudes, which)] for which in (at, checked))
     values = np.vstack(([1.0, 1.0], made))
     series, first = (
         Chebyshev.fit(at**2, column, count - 1, domain=[0.0, top**2]) for column in values.T
@@ -204,6 +204,6 @@ def _converging(curve: BackboneCurve, error: float) -> float:
     They fall by 1/(z + √(z² - 1)), z the place of the next singularity where the range is [-1, 1].
     """
     rate = max(_rate(curve.series), _rate(curve.first), 0.1)
-    wanted = rate * (error / curve.error) ** (1.0 / curve.series.degree())
-    here, there = (0.5 * (1.0 / r + r) for r in (rate, wanted))
+    nearer = rate * (error / curve.error) ** (1.0 / curve.series.degree())
+    here, there = (0.5 * (1.0 / r + r) for r in (rate, nearer))
     return curve.holds_up_to * min(0.97, max(0.7, math.sqrt((here + 1.0) / (there + 1.0))))

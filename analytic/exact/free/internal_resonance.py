@@ -84,9 +84,9 @@ def _nearest(orbit: BladeOrbit, expected: FloatArray) -> FloatArray:
 
 def _turns(orbit: BladeOrbit, count: int) -> FloatArray:
     """Return how far each mode's multiplier is from 1, in turns, 0 to ½, without the own mode."""
-    found = floquet_multipliers(orbit, modes=count + 1)
+    multipliers = floquet_multipliers(orbit, modes=count + 1)
     # Two for each mode, after the orbit's own.
-    return np.asarray(np.abs(np.angle(found.values[2::2])) / (2.0 * np.pi))
+    return np.asarray(np.abs(np.angle(multipliers.values[2::2])) / (2.0 * np.pi))
 
 
 def resonances_along(of: ModePath, orbits: Sequence[BladeOrbit]) -> list[Resonance]:
@@ -139,21 +139,21 @@ def pinned(
     i = sum(orbit.amplitude < place for orbit in orbits)
     if not 0 < i < len(orbits):
         return [], place
-    (below, above), found = orbits[i - 1 : i + 1], list[BladeOrbit]()
+    (below, above), halves = orbits[i - 1 : i + 1], list[BladeOrbit]()
     while (pole := _pole((below, above), k)) is not None:
         place, gap = pole, above.amplitude - below.amplitude
         if gap < _CLOSE:
             break
         inside = min(max(pole, below.amplitude + _INSIDE * gap), above.amplitude - _INSIDE * gap)
         try:
-            found.append(at(inside))
+            halves.append(at(inside))
         except NoOrbitError:
             break
-        if (found[-1].gauge_harmonics[k] * below.gauge_harmonics[k].conj()).real > 0.0:
-            below = found[-1]
+        if (halves[-1].gauge_harmonics[k] * below.gauge_harmonics[k].conj()).real > 0.0:
+            below = halves[-1]
         else:
-            above = found[-1]
-    return found, place
+            above = halves[-1]
+    return halves, place
 
 
 def _drives(orbit: BladeOrbit, k: int) -> bool:
@@ -174,7 +174,7 @@ def nearest_resonance(of: ModePath, orbits: Sequence[BladeOrbit]) -> str:
     )
 
 
-def outstanding(of: ModePath, orbit: BladeOrbit) -> list[int]:
+def prominent_harmonics(of: ModePath, orbit: BladeOrbit) -> list[int]:
     """Return the harmonics larger than the one before that may be near another mode."""
     others, sizes = of.modes[_others(of)], orbit.sizes
     return [
@@ -188,7 +188,7 @@ def outstanding(of: ModePath, orbit: BladeOrbit) -> list[int]:
 def warn_of_resonances(of: ModePath, orbits: Iterable[BladeOrbit]) -> None:
     """Warn once for each harmonic that stands out of an orbit's series and meets another mode."""
     others = _others(of)
-    suspects = [(orbit, ks) for orbit in orbits if (ks := outstanding(of, orbit))]
+    suspects = [(orbit, ks) for orbit in orbits if (ks := prominent_harmonics(of, orbit))]
     # Multipliers cost more than an orbit does: of very many a few are looked at.
     looked = np.unique(np.linspace(0, len(suspects) - 1, _LOOKS).round().astype(int))
     warned: set[tuple[int, str]] = set()

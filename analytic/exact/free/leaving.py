@@ -143,9 +143,11 @@ class _Leaving:
     def orbit(self, amplitude: float) -> BladeOrbit:
         """Return the planar orbit of an amplitude."""
         flat = self.of.path.at(amplitude).with_harmonics(self.harmonics)
-        found = solve(_in_space(flat, self.system, self.periods), amplitude)
+        planar = solve(_in_space(flat, self.system, self.periods), amplitude)
         # Near the birth round-off is enlarged in flap and torsion.
-        return replace(found, coefficients=np.where(_across(self.system), 0.0, found.coefficients))
+        return replace(
+            planar, coefficients=np.where(_across(self.system), 0.0, planar.coefficients)
+        )
 
     def block(self, orbit: BladeOrbit) -> tuple[FloatArray, NDArray[np.intp]]:
         """Return the symmetric block of flap and torsion, and the places of its unknowns.
@@ -155,11 +157,11 @@ class _Leaving:
         order = np.arange(orbit.harmonics + 1)
         order = np.append(order, order[1:])[:, None]
         moves = _across(self.system) & (order % self.periods == self.periods - 1)
-        own = np.flatnonzero(packed(moves, orbit.parts))
+        places = np.flatnonzero(packed(moves, orbit.parts))
         # A mean has twice the weight of a wave, which makes the block symmetric.
         weights = packed(np.where(order == 0, 2.0, np.ones_like(orbit.coefficients)), orbit.parts)
-        block = weights[own, None] * jacobian(orbit)[np.ix_(own, own)]
-        return 0.5 * (block + block.T), own
+        block = weights[places, None] * jacobian(orbit)[np.ix_(places, places)]
+        return 0.5 * (block + block.T), places
 
     def values(self, amplitude: float) -> FloatArray:
         """Return the eigenvalues of the block, ascending."""
@@ -187,17 +189,17 @@ def _across(system: SteadyBlade) -> NDArray[np.bool_]:
 
 def _in_space(flat: BladeOrbit, system: SteadyBlade, periods: int) -> BladeOrbit:
     """Return a planar orbit as one in space, once or twice around."""
-    planar, own, H = flat.system.model, system.model.functions, flat.harmonics
+    planar, functions, H = flat.system.model, system.model.functions, flat.harmonics
     coefficients = np.zeros((2 * periods * H + 1, system.size))
     order = np.concatenate(([0], periods * np.arange(1, H + 1)))
     rows = np.append(order, periods * H + order[1:])
-    bending, twists, *_ = own.counts
-    for known, places in (
+    bending, twists, *_ = functions.counts
+    for coordinates, places in (
         (flat.coefficients[:, : planar.bending], np.arange(0, bending, 2)),
-        (flat.coefficients[:, planar.bending :], bending + twists + np.arange(own.counts[2])),
+        (flat.coefficients[:, planar.bending :], bending + twists + np.arange(functions.counts[2])),
     ):
-        count = min(known.shape[1], places.size)
-        coefficients[np.ix_(rows, places[:count])] = known[:, :count]
+        count = min(coordinates.shape[1], places.size)
+        coefficients[np.ix_(rows, places[:count])] = coordinates[:, :count]
     return Orbit(
         system=system, amplitude=flat.amplitude, frequency=flat.frequency / periods,
         coefficients=coefficients, peak_phase=flat.peak_phase / periods,
@@ -219,10 +221,10 @@ def leaving_branch(
         for harmonics in _HARMONICS:
             at, end = None, high
             for one in systems:
-                found = _Leaving(of=of, system=one, periods=periods, harmonics=harmonics)
-                place = found.birth(low, end)
+                leaving = _Leaving(of=of, system=one, periods=periods, harmonics=harmonics)
+                place = leaving.birth(low, end)
                 if place is not None:
-                    at, end = (place, found), place
+                    at, end = (place, leaving), place
             if at is not None:
                 yield at
         if at is None:
@@ -253,25 +255,25 @@ def leaving_branch(
 
 def _followed(leaving: _Leaving, birth: BladeOrbit, points: int) -> tuple[list[BladeOrbit], str]:
     """Return the orbits of the branch in order, and why it ends."""
-    block, own = leaving.block(birth)
+    block, places = leaving.block(birth)
     values, vectors = np.linalg.eigh(block)
     size = float(np.linalg.norm(packed(birth.coefficients, birth.parts)))
     curve = OrbitCurve(birth, birth.frequency, birth.frequency / size, partial(refined, care=_CARE))
     start = curve.unknowns(birth)
     across = np.zeros(start.size)
-    across[own] = vectors[:, np.argmin(np.abs(values))]
+    across[places] = vectors[:, np.argmin(np.abs(values))]
     at = At(curve, corrected(curve, start + _BEGIN * size * across, across)).resolved()
-    found = [at.orbit]
+    orbits = [at.orbit]
     try:
         for here, there in at.followed(_BEGIN * size, _LONGEST * size):
-            if len(found) == points:
+            if len(orbits) == points:
                 break
             if _apart(here.orbit) @ _apart(there.orbit) < 0.0:
-                return found, "the branch comes back to the plane"
-            found.append(there.orbit)
+                return orbits, "the branch comes back to the plane"
+            orbits.append(there.orbit)
     except NoOrbitError as reason:
-        return found, f"there {reason}"
-    return found, "followed no farther"
+        return orbits, f"there {reason}"
+    return orbits, "followed no farther"
 
 
 def _apart(orbit: BladeOrbit) -> FloatArray:

@@ -17,7 +17,7 @@ from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
 from ..continuum.rotation import BladeOrbit
 from .branch import OrbitSet
-from .internal_resonance import FOLLOWED, nearest_resonance, outstanding, warn_of_resonances
+from .internal_resonance import FOLLOWED, nearest_resonance, prominent_harmonics, warn_of_resonances
 from .path import AmplitudeNotReachedError, ModePath
 
 if TYPE_CHECKING:
@@ -127,60 +127,60 @@ class Orbits(OrbitSet):
 
 def orbits_of(of: ModePath, amplitudes: ArrayLike) -> Orbits:
     """Return the orbits of a backbone, as `periodic_orbits` says."""
-    asked = finite_values("amplitudes", amplitudes)
-    if asked.min() <= 0.0 or asked.max() >= 1.0:
-        wrong = asked.min() if asked.min() <= 0.0 else asked.max()
+    sizes = finite_values("amplitudes", amplitudes)
+    if sizes.min() <= 0.0 or sizes.max() >= 1.0:
+        wrong = sizes.min() if sizes.min() <= 0.0 else sizes.max()
         raise ValueError(
             f"amplitudes must lie between 0 and 1, got {wrong:g}: they are the peak deflection "
             "of the tip over the beam's length"
         )
-    ascending, place = np.unique(asked, return_inverse=True)
-    found, refused = _found(of, ascending)
-    found = _confirmed(of, found)
-    warn_of_resonances(of, found.values())
-    kept = [found[a] for a in ascending[place].tolist() if a in found]
+    ascending, place = np.unique(sizes, return_inverse=True)
+    by_amplitude, refused = _followed(of, ascending)
+    by_amplitude = _confirmed(of, by_amplitude)
+    warn_of_resonances(of, by_amplitude.values())
+    kept = [by_amplitude[a] for a in ascending[place].tolist() if a in by_amplitude]
     orbits = _packed(of, kept) if kept else None
     if orbits is None or refused:
         raise AmplitudeNotReachedError(refused, orbits)
     return orbits
 
 
-def _found(of: ModePath, ascending: FloatArray) -> tuple[dict[float, BladeOrbit], str]:
+def _followed(of: ModePath, ascending: FloatArray) -> tuple[dict[float, BladeOrbit], str]:
     """Return the orbits found by their amplitudes, and what to say of the first that was not."""
-    found: dict[float, BladeOrbit] = {}
+    orbits: dict[float, BladeOrbit] = {}
     refused = ""
     for a in ascending.tolist():
         try:
-            found[a] = of.path.at(a)
+            orbits[a] = of.path.at(a)
         except NoOrbitError as reason:
             refused = refused or (
                 f"no orbit of {of.name} with a peak |q|/L of {a:g} was found: {reason}{_why(of, a)}"
             )
-    return found, refused
+    return orbits, refused
 
 
-def _confirmed(of: ModePath, found: dict[float, BladeOrbit]) -> dict[float, BladeOrbit]:
+def _confirmed(of: ModePath, orbits: dict[float, BladeOrbit]) -> dict[float, BladeOrbit]:
     """Return the orbits; of those near a resonance, where several have one amplitude, confirmed.
 
     The branch is computed again on more functions, which may lead into another orbit, until that
     changes no frequency. The last change is the error.
     """
-    suspects = list(found)
+    suspects = list(orbits)
     for _ in range(_RELAID):
-        suspects = [a for a in suspects if outstanding(of, found[a])]
+        suspects = [a for a in suspects if prominent_harmonics(of, orbits[a])]
         if not suspects:
             break
         of = replace(of, model=of.path.seed.system.refined().model)
-        finer, _ = _found(of, np.sort(suspects))
+        finer, _ = _followed(of, np.sort(suspects))
         changing = []
         for a in suspects:
-            one = finer.get(a, found[a])
-            change = abs(one.frequency / found[a].frequency - 1.0) if a in finer else math.inf
-            found[a] = replace(one, frequency_error=max(one.frequency_error, change))
+            one = finer.get(a, orbits[a])
+            change = abs(one.frequency / orbits[a].frequency - 1.0) if a in finer else math.inf
+            orbits[a] = replace(one, frequency_error=max(one.frequency_error, change))
             if change > FREQUENCY_BOUND:
                 changing.append(a)
         suspects = changing
-    return found
+    return orbits
 
 
 def _why(of: ModePath, a: float) -> str:

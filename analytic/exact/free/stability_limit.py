@@ -168,73 +168,73 @@ def stability_limit(
 
 
 def _limit(orbits: PlanarOrbits, least: float, largest: float) -> StabilityLimit:
-    seen = _scanned(orbits, least, largest)
-    searched = max(seen)
+    growths = _scanned(orbits, least, largest)
+    searched = max(growths)
     amplitude, what, agreed = math.inf, None, True
     if (last := orbits.growth(searched, 2)).per_radian >= least:
-        seen = _seen_finely(orbits, {**seen, searched: last}, least)
-        low, high = _last_step(seen, least)
+        growths = _refined_near_limit(orbits, {**growths, searched: last}, least)
+        low, high = _last_step(growths, least)
         amplitude = _bisected(orbits, low, high, least) if low else high
         what = orbits.growth(amplitude, 2)
-        seen = {a: one for a, one in seen.items() if a < amplitude}
+        growths = {a: one for a, one in growths.items() if a < amplitude}
         beyond = min((1.0 + _CONVERGED) * amplitude, searched)
-        below = [a for a in seen if seen[a].per_radian < least and a > _NEAR * amplitude]
+        below = [a for a in growths if growths[a].per_radian < least and a > _NEAR * amplitude]
         agreed = orbits.growth(beyond, 3).per_radian >= least
         agreed = agreed and orbits.growth(below[-1], 3).per_radian < least if below else False
     return StabilityLimit(
         blade=orbits.blade, omega=orbits.omega, mode=orbits.mode, damping=orbits.damping,
         theory=orbits.theory, growth=least, amplitude=amplitude, searched=searched,
         kind=what.kind if what else "", modes=what.modes if what else (),
-        tongues=_tongues(orbits, seen, amplitude), converged=agreed,
+        tongues=_tongues(orbits, growths, amplitude), converged=agreed,
     )  # fmt: skip
 
 
 def _scanned(orbits: PlanarOrbits, least: float, largest: float) -> dict[float, Growth]:
     """Return what grows at amplitudes up to the largest that exists, at the first resolution."""
-    seen: dict[float, Growth] = {}
+    growths: dict[float, Growth] = {}
     a = min(SMALLEST, largest)
     while a >= _NOTHING and (now := orbits.growth(a)).unstable:
-        seen[a] = now
+        growths[a] = now
         a /= 1.0 + _LONG
     a = min(SMALLEST, largest)
     while True:
         try:
-            seen[a] = orbits.growth(a)
+            growths[a] = orbits.growth(a)
         except NoOrbitError:
-            if not seen:
+            if not growths:
                 raise
             break
         if a == largest:
             break
-        strong = seen[a].per_radian > _STRONG * max(least, LEAST_GROWTH)
+        strong = growths[a].per_radian > _STRONG * max(least, LEAST_GROWTH)
         a = min(a * (1.0 + (_LONG if strong else _STEP)), largest)
-    return dict(sorted(seen.items()))
+    return dict(sorted(growths.items()))
 
 
-def _seen_finely(
-    orbits: PlanarOrbits, seen: dict[float, Growth], least: float
+def _refined_near_limit(
+    orbits: PlanarOrbits, growths: dict[float, Growth], least: float
 ) -> dict[float, Growth]:
     """Return the same with finer steps at twice the resolution near where growth begins to stay.
 
     The first resolution finds the limit to a per cent or so.
     """
-    rough, largest = _last_step(seen, least)[1], max(seen)
+    rough, largest = _last_step(growths, least)[1], max(growths)
     fine: dict[float, Growth] = {}
     a = _NEAR * rough
     while a < largest and (a < (1.0 + _STEP) * rough or fine[max(fine)].per_radian < least):
         fine[a] = orbits.growth(a, 2)
         a *= 1.0 + _FINE
-    others = {b: one for b, one in seen.items() if not min(fine) <= b <= max(fine)}
+    others = {b: one for b, one in growths.items() if not min(fine) <= b <= max(fine)}
     return dict(sorted({**others, **fine}.items()))
 
 
-def _last_step(seen: dict[float, Growth], least: float) -> tuple[float, float]:
+def _last_step(growths: dict[float, Growth], least: float) -> tuple[float, float]:
     """Return the largest amplitude that does not grow so fast, and the next; zero if all do.
 
     The very largest does.
     """
-    amplitudes = list(seen)
-    last = max((k for k, a in enumerate(amplitudes) if seen[a].per_radian < least), default=-1)
+    amplitudes = list(growths)
+    last = max((k for k, a in enumerate(amplitudes) if growths[a].per_radian < least), default=-1)
     return (amplitudes[last] if last >= 0 else 0.0), amplitudes[last + 1]
 
 
@@ -246,19 +246,21 @@ def _bisected(orbits: PlanarOrbits, low: float, high: float, least: float) -> fl
     return high
 
 
-def _tongues(orbits: PlanarOrbits, seen: dict[float, Growth], limit: float) -> tuple[Tongue, ...]:
+def _tongues(
+    orbits: PlanarOrbits, growths: dict[float, Growth], limit: float
+) -> tuple[Tongue, ...]:
     """Return the intervals that grow; with damping their ends are bisected."""
-    found, around = [], [0.0, *seen, limit]
-    for unstable, run in groupby(seen.items(), key=lambda item: item[1].unstable):
+    tongues, around = [], [0.0, *growths, limit]
+    for unstable, run in groupby(growths.items(), key=lambda item: item[1].unstable):
         if unstable:
-            amplitudes, growths = zip(*run, strict=True)
-            most = max(growths, key=lambda one: one.exponent)
+            amplitudes, grown = zip(*run, strict=True)
+            most = max(grown, key=lambda one: one.exponent)
             low, high = amplitudes[0], amplitudes[-1]
             if orbits.damped:
                 before, after = around[around.index(low) - 1], around[around.index(high) + 1]
                 low = _bisected(orbits, before, low, 0.0) if before else low
                 high = _bisected(orbits, after, high, 0.0) if math.isfinite(after) else high
-            found.append(
+            tongues.append(
                 Tongue(low=low, high=high, growth=most.per_radian, kind=most.kind, modes=most.modes)
             )
-    return tuple(found)
+    return tuple(tongues)

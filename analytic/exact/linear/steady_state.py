@@ -71,12 +71,12 @@ class SteadyState:
 
 
 def _vector(name: str, value: ArrayLike, unit: str) -> tuple[float, ...]:
-    found = finite_array(name, value, unit)
-    if found.shape != (3,):
+    vector = finite_array(name, value, unit)
+    if vector.shape != (3,):
         raise ValueError(
             f"{name} must be three numbers [{unit}], got {value!r}: as (0.0, 0.0, 1.0)"
         )
-    return tuple(found.tolist())
+    return tuple(vector.tolist())
 
 
 @one_thread

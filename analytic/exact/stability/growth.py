@@ -108,8 +108,8 @@ def grown(
     sizes = np.log(np.maximum(np.abs(values), 1e-300)) + exponent
     # What oscillates too fast for the steps comes out at a wrong place and may meet others there.
     slow = frequencies < _RESOLVED * steps * orbit.frequency / (2.0 * np.pi)
-    told = (slow @ shares > 0.5) | (sizes > _FAST)
-    largest = int(np.argmax(np.where(told, sizes, -np.inf)))
+    countable = (slow @ shares > 0.5) | (sizes > _FAST)
+    largest = int(np.argmax(np.where(countable, sizes, -np.inf)))
     with np.errstate(over="ignore", invalid="ignore"):
         lowest = (values * np.exp(exponent))[np.argsort(place)[: 2 * _REPORTED]]
     growth = Growth(float(sizes[largest]), lowest.astype(complex))

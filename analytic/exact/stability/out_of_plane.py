@@ -226,8 +226,8 @@ class OutOfPlaneMotion:
         K = across.stiffness(planar, *state, *self.orbit.drive(phase))
         C = np.zeros_like(K) if self.modal is None else np.broadcast_to(self.modal, K.shape)
         if any(across.unit.damping):
-            own, more = across.resistance(planar, *state[:2])
-            K, C = K + more, C + own
+            damping, stiffening = across.resistance(planar, *state[:2])
+            K, C = K + stiffening, C + damping
         return Tangent(np.zeros(K.shape[:2]), K, C, np.broadcast_to(across.mass, K.shape))
 
     @property

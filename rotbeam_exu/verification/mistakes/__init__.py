@@ -70,8 +70,8 @@ def most_left(tolerance: float, finding: Finding) -> float:
     That error is known where meshes and steps have a limit; more than passes is not excused.
     """
     runs = finding.runs
-    own = abs(float(runs.errors[-1])) if runs is not None and np.isfinite(runs.limit) else 0.0
-    return tolerance / 3.0 + min(own, tolerance)
+    error = abs(float(runs.errors[-1])) if runs is not None and np.isfinite(runs.limit) else 0.0
+    return tolerance / 3.0 + min(error, tolerance)
 
 
 def _in_tags(case: Case, submission: Submission, judgement: Judgement) -> Mistake | None:

@@ -87,7 +87,7 @@ def largest(values: FloatArray) -> float:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Seen:
+class _Samples:
     """A history that is off: samples of it and of the reference."""
 
     case: Case
@@ -120,48 +120,50 @@ def mistake_in_history(
     leaves `most` at most, over max|q|.
     """
     every = max(1, time.size // _SAMPLES)
-    seen = _Seen(case=case, time=time[::every], q=q[::every], true=true[::every])
-    before = largest((seen.q - seen.true) / seen.scale)
+    history = _Samples(case=case, time=time[::every], q=q[::every], true=true[::every])
+    before = largest((history.q - history.true) / history.scale)
     if not before > SMALL:
         return None
-    found = explaining(case.name, before, most, chain(_slips(seen), _inertial(seen)))
-    if found is not None or not (case.is_spun_up and case.is_quick):
-        return found
-    for name, said, left in _unit_of_speed(seen):
+    mistake = explaining(case.name, before, most, chain(_slips(history), _inertial(history)))
+    if mistake is not None or not (case.is_spun_up and case.is_quick):
+        return mistake
+    for name, said, left in _unit_of_speed(history):
         return Mistake(case=case.name, name=name, said=said, before=before, after=left)
-    return explaining(case.name, before, most, _forces(seen)) or _ramp(seen, ramps, most)
+    return explaining(case.name, before, most, _forces(history)) or _ramp(history, ramps, most)
 
 
-def _slips(seen: _Seen) -> _Suspects:
+def _slips(history: _Samples) -> _Suspects:
     """Yield factors by which the columns are off."""
-    for name, (said, factors) in seen.case.slips.items():
-        off = seen.q / np.array(factors) - seen.true
-        yield name, said, largest(off / seen.scale)
+    for name, (said, factors) in history.case.slips.items():
+        off = history.q / np.array(factors) - history.true
+        yield name, said, largest(off / history.scale)
 
 
-def _inertial(seen: _Seen) -> _Suspects:
+def _inertial(history: _Samples) -> _Suspects:
     """Yield q taken across a line that does not turn: the tip's position, or its displacement."""
-    case = seen.case
-    if not (case.is_spun_up and case.is_quick) or largest(seen.q) < 0.5 * case.blade.length:
+    case = history.case
+    if not (case.is_spun_up and case.is_quick) or largest(history.q) < 0.5 * case.blade.length:
         return  # a tip that turns goes farther
     response = spin_up_response(
-        case.blade, case.spin_up, seen.time, tolerance=0.1 * SMALL, loads=case.loads
+        case.blade, case.spin_up, history.time, tolerance=0.1 * SMALL, loads=case.loads
     )
     reach = case.blade.hub_radius + case.blade.length
-    off = seen.q - response.from_axis[:, 1]
-    moved = off + reach * np.sin(case.spin_up.angle(seen.time))
+    off = history.q - response.from_axis[:, 1]
+    moved = off + reach * np.sin(case.spin_up.angle(history.time))
     said = "q is taken along an axis that does not turn: turn it by -θ(t), q = y cos θ - x sin θ"
-    yield "inertial axis", said, min(largest(off / seen.scale), largest(moved / seen.scale))
+    yield "inertial axis", said, min(largest(off / history.scale), largest(moved / history.scale))
 
 
-def _unit_of_speed(seen: _Seen) -> _Suspects:
+def _unit_of_speed(history: _Samples) -> _Suspects:
     """Yield the unit that the speed was taken for; while q is small it is proportional to it.
 
     A code may well break where it turns too fast, so that only the beginning is looked at.
     """
-    large = np.maximum(np.abs(seen.q), np.abs(seen.true)) > _LINEAR * seen.case.blade.length
-    early = slice(0, int(np.argmax(large)) if large.any() else seen.q.size)
-    q, true = seen.q[early], seen.true[early]
+    large = (
+        np.maximum(np.abs(history.q), np.abs(history.true)) > _LINEAR * history.case.blade.length
+    )
+    early = slice(0, int(np.argmax(large)) if large.any() else history.q.size)
+    q, true = history.q[early], history.true[early]
     if true.size < 3 or not true.any():
         return
     factor = float(q @ true / (true @ true))
@@ -174,28 +176,28 @@ def _unit_of_speed(seen: _Seen) -> _Suspects:
             (1.0 / unit, f"the speed in rad/s was taken for {short}"),
         ):
             if abs(factor / size - 1.0) < LEFT:
-                found = f"{said}: early on q is {factor:.3g} times the reference"
-                yield name, found, left / float(seen.scale)
+                sentence = f"{said}: early on q is {factor:.3g} times the reference"
+                yield name, sentence, left / float(history.scale)
                 return
 
 
-def _forces(seen: _Seen) -> _Suspects:
+def _forces(history: _Samples) -> _Suspects:
     """Yield spin-ups without a force of the rotation."""
     for name, (said, _) in FORCES.items():
         try:
-            q = without(name, seen.case, seen.time)
+            q = without(name, history.case, history.time)
         except RuntimeError:
             continue
-        yield name, said, largest((seen.q - q) / seen.scale)
+        yield name, said, largest((history.q - q) / history.scale)
 
 
-def _ramp(seen: _Seen, ramps: Collection[str], most: float) -> Mistake | None:
+def _ramp(history: _Samples, ramps: Collection[str], most: float) -> Mistake | None:
     """Return the wrong ramp that explains q while the rotation speeds up."""
-    case = seen.case
+    case = history.case
     if type(case.rotation) is not SpinUp:
         return None
-    during = seen.time <= min(case.ramp_time, _RAMP_WINDOW)
-    time, q, true = seen.time[during], seen.q[during], seen.true[during]
+    during = history.time <= min(case.ramp_time, _RAMP_WINDOW)
+    time, q, true = history.time[during], history.q[during], history.true[during]
     scale = largest(true)
     before = largest(q - true) / scale
     if not before > SMALL:

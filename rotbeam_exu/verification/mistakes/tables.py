@@ -46,9 +46,9 @@ def mistake_in_table(
     finest = [one for one in done if one.elements == max(one.elements for one in done)]
     if not finest:
         return None
-    found = np.concatenate([one.values for one in finest])
+    values = np.concatenate([one.values for one in finest])
     true = np.concatenate([reference.numbers(one) for one in finest])
-    before = largest(found / true - 1.0)
+    before = largest(values / true - 1.0)
     if not before > THRESHOLDS[case.quantities[0]]:
         return None
     if case.asked is Asked.STEADY:
@@ -56,8 +56,8 @@ def mistake_in_table(
     else:
         suspects = _other_units(true)
         if case.asked is Asked.FREQUENCIES:
-            suspects = _of_frequencies(case, finest, reference, found, true)
-    left = ((name, said, largest(found / w - 1.0)) for name, said, w in suspects)
+            suspects = _of_frequencies(case, finest, reference, values, true)
+    left = ((name, said, largest(values / w - 1.0)) for name, said, w in suspects)
     return explaining(case.name, before, most, left)
 
 
@@ -75,21 +75,21 @@ def _other_units(true: FloatArray) -> _Suspects:
 
 
 def _of_frequencies(
-    case: Case, rows: Sequence[Row], reference: Reference, found: FloatArray, true: FloatArray
+    case: Case, rows: Sequence[Row], reference: Reference, values: FloatArray, true: FloatArray
 ) -> _Suspects:
     """Yield frequencies in other units, of other speeds and motions, and from a spectrum."""
     speeds = np.array([row.speed for row in rows])
 
     def at(factor: float) -> FloatArray:
-        wanted = set((factor * speeds).tolist())
-        known = {speed: row_of(case, reference.theory, speed)[0] for speed in wanted}
-        return np.array([known[factor * row.speed][row.number - 1] for row in rows])
+        rotations = set((factor * speeds).tolist())
+        frequencies = {speed: row_of(case, reference.theory, speed)[0] for speed in rotations}
+        return np.array([frequencies[factor * row.speed][row.number - 1] for row in rows])
 
     yield from _other_units(true)
     yield "eigenvalues", "the frequencies are ω_n², eigenvalues: hand in their roots", true**2
     if case.count == 1:  # the first in the plane
         yield from _other_motions(true, speeds, float(at(0.0)[0]))
-    yield from _bins(found, true)
+    yield from _bins(values, true)
     for name, (said, factor) in _SPEED_UNITS.items():
         if case.is_quick or not factor:
             yield name, said, at(factor)
@@ -106,17 +106,17 @@ def _other_motions(true: FloatArray, speeds: FloatArray, at_rest: float) -> _Sus
     yield "no centrifugal stiffening", said, np.where(softened > 0.0, softened, np.inf)
 
 
-def _bins(found: FloatArray, true: FloatArray) -> _Suspects:
+def _bins(values: FloatArray, true: FloatArray) -> _Suspects:
     """Yield what lies in a spectrum's bins: all are multiples of one width, half of it off at most.
 
     Three different frequencies are needed; of two a width is always found.
     """
-    if np.unique(found).size < _FEWEST:
+    if np.unique(values).size < _FEWEST:
         return
-    for width in found.max() / np.arange(1.0, _MOST_BINS):
-        if np.abs(found - true).max() > 0.51 * width:
+    for width in values.max() / np.arange(1.0, _MOST_BINS):
+        if np.abs(values - true).max() > 0.51 * width:
             return
-        if np.abs(found / width - np.rint(found / width)).max() < _IN_BIN:
+        if np.abs(values / width - np.rint(values / width)).max() < _IN_BIN:
             said = f"the frequencies are multiples of {width:.3g} rad/s, bins of an FFT: fit q(t)"
-            yield "bins", f"{said}, or run {2.0 * math.pi / width:.3g} s many times over", found
+            yield "bins", f"{said}, or run {2.0 * math.pi / width:.3g} s many times over", values
             return

@@ -88,12 +88,14 @@ def _rows(folder: Folder, file: str, case: Case) -> list[Row]:
     """Return the rows of a case's table."""
     columns = tables.columns_of(case)
     measured: dict[str, list[str]] = {column.name: [] for column in columns if column.measured}
-    found: dict[tuple[object, ...], Row] = {}
+    rows: dict[tuple[object, ...], Row] = {}
     for line, cells, stated in tables.rows_of(folder, tables.sheet_of(folder, file, columns)):
         values = tuple(stated.pop(name) for name in measured if name in stated)
-        told = stated.pop("rounding", None)
-        made = Row(case=case.name, **stated, values=values, rounding=(told,) if told else ())
-        if found.setdefault((made.elements, made.place), made) is not made:
+        rounding = stated.pop("rounding", None)
+        made = Row(
+            case=case.name, **stated, values=values, rounding=(rounding,) if rounding else ()
+        )
+        if rows.setdefault((made.elements, made.place), made) is not made:
             folder.add(file, "the same row stands above: keep one", line)
         elif values:
             for name, written in measured.items():
@@ -101,19 +103,19 @@ def _rows(folder: Folder, file: str, case: Case) -> list[Row]:
     most = {name: tables.digits(written) for name, written in measured.items() if written}
     if folder.add_all(file, tables.too_short(most)):
         return []
-    for place, row in found.items():
+    for place, row in rows.items():
         lost = [
             max(tables.rounding(count, abs(value)), *row.rounding, 0.0)
             for count, value in zip(most.values(), row.values, strict=False)
         ]
-        found[place] = replace(row, rounding=tuple(lost) if any(lost) else ())
-    return list(found.values())
+        rows[place] = replace(row, rounding=tuple(lost) if any(lost) else ())
+    return list(rows.values())
 
 
 def _vibrations(folder: Folder) -> list[tuple[str, Case]]:
     """Return the files of free vibrations, each in place of a row of a table, and their cases."""
-    known = [case for case in CASES.values() if case.quantities == ("linear frequency",)]
-    return [(file, case) for case in known for file in folder.histories(case.name)]
+    cases = [case for case in CASES.values() if case.quantities == ("linear frequency",)]
+    return [(file, case) for case in cases for file in folder.histories(case.name)]
 
 
 def _vibration(folder: Folder, file: str, case: Case, rows: Sequence[Row]) -> list[Row]:
@@ -139,7 +141,7 @@ def _find_strangers(folder: Folder) -> None:
 
     A link out of the folder may have any name, and is looked into under none.
     """
-    known = (*_TABLES, runs.FILE)
+    expected = (*_TABLES, runs.FILE)
     for path in sorted(folder.root.iterdir()):
         name = printable(path.name)
         if folder.real(path.name) is None:
@@ -147,8 +149,8 @@ def _find_strangers(folder: Folder) -> None:
                 folder.add(name, OUTSIDE)
         elif path.is_dir() and path.name not in CASES and any(path.glob("m*_h*.csv")):
             folder.add(name, f"is the folder of no case; {near(name, CASES, str)}")
-        elif path.suffix.lower() == ".csv" and path.name not in known:
-            folder.add(name, f"is a table that nobody asked for; {near(name, known, str)}")
+        elif path.suffix.lower() == ".csv" and path.name not in expected:
+            folder.add(name, f"is a table that nobody asked for; {near(name, expected, str)}")
 
 
 def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> Path:
@@ -159,7 +161,7 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
     Parameters
     ----------
     submission : Submission
-        From files, or of a code that was called, as `handed_in` returns it.
+        From files, or of a code that was called, as `submission_of` returns it.
     folder : path
         New, or without a submission.
 
@@ -225,8 +227,8 @@ def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str,
     """Return the SHA-256 of each file that was judged, by its name below the folder."""
     files = Folder(folder)
     free = (file for file, _ in _vibrations(files))
-    found = {}
+    by_file = {}
     for file in (entry.FILE, *_TABLES, *free, runs.FILE, *(run.file for run in submission.runs)):
         with suppress(OSError, ValueError):  # not there, or told as a fault
-            found[file] = hashlib.sha256(files.content(file)).hexdigest()
-    return found
+            by_file[file] = hashlib.sha256(files.content(file)).hexdigest()
+    return by_file

@@ -1,7 +1,7 @@
 """Files of a submission, and their faults: all at once, each with its place and a remedy.
 
-Who judges the folders of strangers has files of his own, to which links lead, and memory, which a
-pipe or a device fills. All files are read here: regular ones below the folder, up to a limit.
+A judge must not follow links out of a stranger's folder, or read pipes and devices. So all files
+are read here: regular ones below the folder, up to a limit.
 """
 
 from __future__ import annotations
@@ -70,9 +70,9 @@ class Folder:
         fault = Fault(file=file, said=said, line=line)
         self._alike.setdefault((_VARIES.sub("#", said), file), []).append(fault)
 
-    def add_all(self, file: str, found: Iterable[tuple[str, int | None]]) -> bool:
+    def add_all(self, file: str, faults: Iterable[tuple[str, int | None]]) -> bool:
         """Keep faults with their lines, and return whether there are any."""
-        kept = list(found)
+        kept = list(faults)
         for said, line in kept:
             self.add(file, said, line)
         return bool(kept)
@@ -144,12 +144,12 @@ def shown(text: str) -> str:
     return quoted if len(quoted) <= _SHOWN else f"{quoted[:_SHOWN]}...{quoted[0]}"
 
 
-def near(name: str, known: Iterable[str], told: Callable[[str], str] = repr) -> str:
+def near(name: str, names: Iterable[str], shown_as: Callable[[str], str] = repr) -> str:
     """Return the end of a sentence on an unknown name: the most similar known name, or all."""
-    alike = {one.lower(): one for one in known}
+    alike = {one.lower(): one for one in names}
     for close in difflib.get_close_matches(name.lower(), alike, n=1):
-        return f"did you mean {told(alike[close])}?"
-    begun = [told(one) for key, one in alike.items() if name and key.startswith(name.lower())]
+        return f"did you mean {shown_as(alike[close])}?"
+    begun = [shown_as(one) for key, one in alike.items() if name and key.startswith(name.lower())]
     if begun:
         return f"did you mean {' or '.join(begun)}?"
     return f"known are {', '.join(alike.values())}"

@@ -40,24 +40,24 @@ def runs_of(folder: Folder, only: Collection[str]) -> tuple[Run, ...]:
     there = [file for name in tables.HISTORIES for file in folder.histories(name)]
     if not there and not os.path.lexists(folder.root / FILE):
         return ()
-    found, listed = [], list(_listed(folder))
+    runs, listed = [], list(_listed(folder))
     for row in listed:
         if only and row["case"] not in only:
             continue
         case, step = CASES[row["case"]], row.get("step", math.nan)
         if "failure" in row:
-            found.append(Run(**row, time=np.empty(0), q=np.empty(0)))
+            runs.append(Run(**row, time=np.empty(0), q=np.empty(0)))
         elif samples := history_of(folder, row["file"], case, step):
-            found.append(Run(**{**row, **samples}))
-    complete, known = not folder.is_faulty(FILE), {row["file"] for row in listed}
+            runs.append(Run(**{**row, **samples}))
+    complete, files = not folder.is_faulty(FILE), {row["file"] for row in listed}
     for file in there:
-        if file in known:
+        if file in files:
             continue
         if complete:
             folder.add(file, f"stands in no row of {FILE}: add file, elements, step")
         else:
             _check(folder, file, only)
-    return tuple(found)
+    return tuple(runs)
 
 
 def _check(folder: Folder, file: str, only: Collection[str]) -> None:
@@ -73,7 +73,7 @@ def _check(folder: Folder, file: str, only: Collection[str]) -> None:
 
 def _listed(folder: Folder) -> Iterator[dict[str, Any]]:
     """Yield the rows of runs.csv that are right, with their case."""
-    seen: dict[tuple[str, int, float], int] = {}
+    lines: dict[tuple[str, int, float], int] = {}
     first: dict[str, str] = {}
     for line, _, row in tables.rows_of(folder, tables.sheet_of(folder, FILE, tables.RUNS)):
         case, elements, kind, size = row["file"].groups()
@@ -85,8 +85,8 @@ def _listed(folder: Folder) -> Iterator[dict[str, Any]]:
             said = f"the file's name says {named}: correct one of them"
         elif first.setdefault(case, of) != of:
             said = f"a {of} stands beside a {other} of {case}, which no fit takes together"
-        elif seen.setdefault(place, line) != line:
-            said = f"the same case, mesh and {of} stand in line {seen[place]}: keep one"
+        elif lines.setdefault(place, line) != line:
+            said = f"the same case, mesh and {of} stand in line {lines[place]}: keep one"
         else:
             yield row | {"file": row["file"][0], "case": case}
             continue

@@ -84,10 +84,10 @@ class Column:
         if self.must and not _RANGES[self.must](value):
             raise ValueError(f"{self.name} must {self.must}, got {cell}")
         if self.among:
-            close = min(self.among, key=lambda known: abs(known - value))
+            close = min(self.among, key=lambda listed: abs(listed - value))
             if abs(close - value) > _SAME * (abs(close) or 1.0):
-                known = ", ".join(f"{one:g}" for one in self.among)
-                raise ValueError(f"{self.name} {value:g} is not asked for: hand in {known}")
+                listed = ", ".join(f"{one:g}" for one in self.among)
+                raise ValueError(f"{self.name} {value:g} is not asked for: hand in {listed}")
             return close
         return int(value) if self.must == WHOLE else value
 
@@ -176,11 +176,11 @@ def sheet_of(folder: Folder, file: str, columns: Sequence[Column]) -> Sheet:
     ]
     if text is None or folder.add_all(file, _wrong(numbered, columns)):
         return Sheet(file, [], [], [])
-    known = {column.name: column for column in columns}
+    by_name = {column.name: column for column in columns}
     (first, header), *rest = numbered
     if not rest:
         folder.add(file, "has a header and no rows below it", first)
-    held = [known[_title(cell)[0]] for cell in header.split(",")]
+    held = [by_name[_title(cell)[0]] for cell in header.split(",")]
     return Sheet(file, held, [row for _, row in rest], [line for line, _ in rest])
 
 
@@ -194,25 +194,25 @@ def _wrong(
     numbered: Sequence[tuple[int, str]], columns: Sequence[Column]
 ) -> Iterator[tuple[str, int | None]]:
     """Yield what keeps lines from being a table of some columns, and where."""
-    wanted = ",".join(column.name for column in columns if column.needed)
+    expected = ",".join(column.name for column in columns if column.needed)
     if not numbered:
-        yield f"is empty: begin with the header {wanted}", None
+        yield f"is empty: begin with the header {expected}", None
         return
     for line, row in numbered:
         if len(row) > LONGEST_LINE:
             many = f"has {len(row):,} letters, more than {LONGEST_LINE:,}"
-            yield f"{many}: keep to {wanted}", line
+            yield f"{many}: keep to {expected}", line
             return
     first, header = numbered[0]
-    if "," not in header and "," in wanted:
+    if "," not in header and "," in expected:
         other = [f" by {name}" for mark, name in _SEPARATORS.items() if mark in header.strip()]
         split = f"is split{other[0]}" if other else f"is {shown(header.strip())}"
-        yield f"the header {split}: separate the columns by commas, {wanted}", first
+        yield f"the header {split}: separate the columns by commas, {expected}", first
         return
     titles = [_title(cell) for cell in header.split(",")]
     names, units = [name for name, _ in titles], {column.name: column.unit for column in columns}
     if all(_NUMBER.fullmatch(name) for name in names):
-        yield f"there is no header, the first row holds numbers: begin with {wanted}", first
+        yield f"there is no header, the first row holds numbers: begin with {expected}", first
         return
     for name, unit in titles:
         if name not in units:
@@ -220,9 +220,9 @@ def _wrong(
         elif unit and unit != units[name]:
             due = f"[{units[name]}]" if units[name] else "no unit"
             yield f"column {name!r} is in {shown(unit)}: write it in {due}", first
-    missing = [name for name in wanted.split(",") if name not in names]
+    missing = [name for name in expected.split(",") if name not in names]
     if missing:
-        yield f"there is no column {', '.join(missing)}: the header is {wanted}", first
+        yield f"there is no column {', '.join(missing)}: the header is {expected}", first
     twice = [name for name, count in Counter(names).items() if count > 1]
     if twice:
         yield f"column {shown(twice[0])} occurs twice: keep one", first

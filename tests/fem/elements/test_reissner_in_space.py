@@ -24,7 +24,7 @@ from rotbeam_exu.fem.linearization import Linearization
 from rotbeam_exu.files.beam_file import load_beam
 
 ELEMENT = SpaceExact()
-SHIPPED = Path(__file__).parents[2] / "models" / "blades"
+SHIPPED = Path(__file__).parents[3] / "models" / "blades"
 RNG = np.random.default_rng(3)
 
 

@@ -12,8 +12,8 @@ from analytic.exact.free.internal_resonance import (
     frequency_at,
     frequency_ratios,
     nearest_resonance,
-    outstanding,
     pinned,
+    prominent_harmonics,
     resonances_along,
     warn_of_resonances,
 )
@@ -133,16 +133,16 @@ def test_a_resonance_is_pinned_down_between_two_orbits(background):
 
 def test_a_harmonic_stands_out_that_is_larger_than_the_one_before_and_near_a_mode():
     orbit = orbit_at(0.35)  # 5.5/1.8775 = 2.93 and 17.3/1.8775 = 9.2: near 3 and none
-    assert outstanding(of(), orbit) == []  # the sixth is large, and 2.93 not near six
-    assert outstanding(of(MODES * 2.0), orbit) == [6]  # 11/1.8775 = 5.86
-    assert outstanding(of(MODES * 1.8), orbit) == []  # 5.27 is 12 % away
+    assert prominent_harmonics(of(), orbit) == []  # the sixth is large, and 2.93 not near six
+    assert prominent_harmonics(of(MODES * 2.0), orbit) == [6]  # 11/1.8775 = 5.86
+    assert prominent_harmonics(of(MODES * 1.8), orbit) == []  # 5.27 is 12 % away
     third = orbit_at(0.1)
     third.sizes[2] = 0.02
-    assert outstanding(of(MODES * 1.07), third) == [3]  # 5.9/1.99 = 2.96
+    assert prominent_harmonics(of(MODES * 1.07), third) == [3]  # 5.9/1.99 = 2.96
     orbit.sizes[4] = 2.0 * orbit.sizes[5]
-    assert outstanding(of(MODES * 2.0), orbit) == []  # less than the one before
+    assert prominent_harmonics(of(MODES * 2.0), orbit) == []  # less than the one before
     small = orbit_at(0.1, pole=9.0)  # 1e-4 of the first: drowned
-    assert outstanding(of(MODES * 2.1), small) == []
+    assert prominent_harmonics(of(MODES * 2.1), small) == []
 
 
 def test_the_nearest_resonance_is_told_with_its_distance():

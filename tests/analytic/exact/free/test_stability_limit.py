@@ -30,7 +30,7 @@ from analytic.methods.continuation import Care
 from analytic.theory import BERNOULLI_EULER
 from tests.beams import UNIT, told
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 STEPS = (0.02, 0.035, 0.05, 0.08, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6)
 # The first unstable amplitude of the list, by ω [rad/s] and height over width; "-" has none.
 # Another code has 0.1 for 18.5 and none for 3 at 8 rad/s: with its eight functions ours has so too,

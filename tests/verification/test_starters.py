@@ -13,7 +13,7 @@ from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.kit import STATIC, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.submission_files import read_submission
-from tests.kit.test_kit import columns as history
+from tests.verification.test_kit import columns as history
 
 STARTERS = STATIC / "starters"
 MESH, STEP = "4", "4e-4"

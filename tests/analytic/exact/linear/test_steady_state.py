@@ -14,7 +14,7 @@ from analytic.exact.continuum.space import SpaceContinuum
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import unit_beam
 
-BLADES = Path(__file__).parents[3] / "models" / "blades"
+BLADES = Path(__file__).parents[4] / "models" / "blades"
 RIGID = Theory(extension=False, trapeze=False)
 STRIP = Beam.reference().with_section_out_of_plane(0.5, 0.6).with_twist(0.5)
 

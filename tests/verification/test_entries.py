@@ -13,12 +13,12 @@ from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
-from rotbeam_exu.verification.verify import handed_in
+from rotbeam_exu.verification.verify import submission_of
 
 
 def finding(entry, speeds=(0.0, 6.0)):
     case = frequency_case(Beam.reference(), speeds)
-    found = judged(handed_in(entry, [case]), cases={"L": case})
+    found = judged(submission_of(entry, [case]), cases={"L": case})
     return found.findings["L"]["linear frequency"]
 
 
@@ -64,38 +64,38 @@ def test_loads_and_blades_reach_an_element(name):
 
 def test_a_case_that_an_element_does_not_do_is_not_submitted():
     linear, locking = formulation_entry(Linear()), formulation_entry(Ancf3(law="coupled"))
-    assert handed_in(linear, [CASES["S1+h"]]).runs == ()
-    assert handed_in(locking, [CASES["O"]]).runs == ()
+    assert submission_of(linear, [CASES["S1+h"]]).runs == ()
+    assert submission_of(locking, [CASES["O"]]).runs == ()
 
 
 def test_coarse_meshes_in_space_tend_to_the_reference():
     """Of seven frequencies, twisted and coned, and of the tip: of second order, or undecided."""
     entry = replace(formulation_entry(SpaceExact()), elements=8, meshes=(4, 8, 16), step=1e-2)
     cases = replace(CASES["F+p"], speeds=(3.0,), count=3), replace(CASES["W"], duration=5.0)
-    found = judged(handed_in(entry, cases), cases={case.name: case for case in cases})
+    found = judged(submission_of(entry, cases), cases={case.name: case for case in cases})
     for one in found.by_quantity.values():
         assert one.outcome is not Outcome.DIFFERS
         assert one.runs.orders["mesh"].value == pytest.approx(2.0, abs=0.15)
         assert abs(one.runs.limit) < one.runs.bar
     # It has no blade in the plane whose stiffness out of it is unknown, and the cable no space.
-    assert not handed_in(entry, [CASES["L"], CASES["S1"]]).runs
-    assert not handed_in(formulation_entry(Cable()), cases).rows
+    assert not submission_of(entry, [CASES["L"], CASES["S1"]]).runs
+    assert not submission_of(formulation_entry(Cable()), cases).rows
 
 
 @pytest.mark.slow
 def test_the_element_in_space_passes_on_the_meshes_of_the_kit():
     """A minute: frequencies within 3e-5 with a bar of 3e-4, and the tip within 1e-4."""
     entry = formulation_entry(SpaceExact(), step=2.5e-3)
-    found = judged(handed_in(entry, [CASES["F"], CASES["F+p"]]))
+    found = judged(submission_of(entry, [CASES["F"], CASES["F+p"]]))
     assert found.outcome == "2 of 20 agree, 18 not submitted", str(found)
-    found = judged(handed_in(replace(entry, meshes=(16, 32, 64)), [CASES["W"]]))
+    found = judged(submission_of(replace(entry, meshes=(16, 32, 64)), [CASES["W"]]))
     assert found.outcome_of("W") is Outcome.REFERENCE, str(found)
 
 
 @pytest.mark.slow
 def test_a_stout_element_passes_by_its_own_theory_alone():
     entry = formulation_entry(Exact(nodes=3), step=2e-3)
-    submission = handed_in(entry, [CASES["TL"], CASES["T"]])
+    submission = submission_of(entry, [CASES["TL"], CASES["T"]])
     assert judged(submission).outcome == "2 of 20 agree, 18 not submitted"
     others = [theory for theory in CASES["T"].theories if theory != entry.theory]
     assert len(others) == 5
