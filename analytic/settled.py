@@ -22,7 +22,8 @@ FoundT = TypeVar("FoundT")
 KNOWN = 1e-3
 """Change of the finest two solutions beyond which there is no answer."""
 _FINEST = 1e-12  # the least tolerance that round-off leaves in reach
-_ROUND_OFF = 1e-9  # change below which one that no longer falls is round-off
+ROUND_OFF = 1e-9
+"""Change below which one that no longer falls is round-off."""
 
 
 def require_tolerance(tolerance: float | None, default: float) -> float:
@@ -58,16 +59,23 @@ def settled(
     for size in sizes:
         (before, found), last = (found, solve(size)), change
         change = float(np.max(np.abs(np.subtract(of(found), of(before)))))
-        if change <= tolerance:
-            return before, found, change
-        if last <= 2.0 * change <= _ROUND_OFF:
+        if change <= tolerance or last <= 2.0 * change <= ROUND_OFF:
             break
+    judged(change, tolerance, what, remedy, left=left)
+    return before, found, change
+
+
+def judged(
+    change: float, tolerance: float, what: str, remedy: str, *, left: float | None = None
+) -> None:
+    """Warn of a change of the finest two solutions beyond the tolerance, or refuse it."""
+    if change <= tolerance:
+        return
     sentence = f"the finest two solutions differ by {change:.1e} in {what}"
     if change > (KNOWN if left is None else left):
         raise ValueError(f"{sentence}; {remedy}")
     if left is None:
         warn(f"{sentence}, more than the tolerance of {tolerance:g}: take a larger one, {remedy}")
-    return before, found, change
 
 
 def refined(
