@@ -15,7 +15,7 @@ from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm
 from ...input_checks import finite_values, require_ascending, rotation_speed, whole_number
-from ...plotting import apart, axes_or_new, cycled, free_place
+from ...plotting import DASHES, apart, axes_or_new, cycled, free_place
 from ...settled import require_tolerance
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
@@ -28,8 +28,10 @@ if TYPE_CHECKING:
     from ...plotting import Axes
 
 _SOLVED, _DRAWN = 9, 61  # speeds of a picture's curves, besides their own: chords below a pixel
-_LOOKS = ("lag", "flap", "torsion", "axial")  # families, by colors and dashes
 _SPARE_MODES = 3  # resolved beyond those asked for, as some rise above others
+_HERTZ, _PER_MINUTE = (
+    (lambda x, n=n: x * n / (2.0 * np.pi), lambda x, n=n: x * (2.0 * np.pi) / n) for n in (1, 60)
+)
 _KNOWN = 1e-6  # by which two models may differ in a frequency
 
 
@@ -141,8 +143,8 @@ class Campbell:
         for kind, name, row, height in zip(kinds, self.names, curves.T, heights, strict=True):
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
-            family = _LOOKS.index(kind)
-            (line,) = ax.plot(omegas, row, color=cycled(family), ls=("-", "--", "-.", ":")[family])
+            color = cycled(list(DASHES).index(kind))
+            (line,) = ax.plot(omegas, row, color=color, ls=DASHES[kind])
             ax.annotate(
                 name, (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,
@@ -153,6 +155,9 @@ class Campbell:
             xlabel="angular velocity ω [rad/s]", ylabel="natural frequency [rad/s]",
             xlim=(low, high), ylim=(0.0, top),
         )  # fmt: skip
+        # Names are at the right, and orders on top.
+        ax.secondary_xaxis(-0.22, functions=_PER_MINUTE).set_xlabel("speed [rpm]")
+        ax.secondary_yaxis(-0.2, functions=_HERTZ).set_ylabel("[Hz]")
         return ax
 
 

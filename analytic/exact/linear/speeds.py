@@ -22,8 +22,8 @@ from ...methods.system import Tangent
 from ...settled import ROUND_OFF, judged
 from ..continuum.rotation import SteadyBlade
 
-_MOST, _PLACES = 40, 513  # speeds that are solved, and those which they are chosen from
-_BETTER = 0.2  # by which another variable tells a state better that is taken
+_MOST = 40  # speeds that are solved
+_PLACES = np.append(0.0, np.geomspace(1e-7, 1.0, 1024))  # in the range of w̄², to choose from
 _SURE, _HALVINGS = 0.7, 6  # of the criterion of modes that are followed; of steps below it
 
 
@@ -51,23 +51,16 @@ def _solved(steady: SteadyBlade) -> Solved:
     return Solved(steady, np.array([K, 0.5 * (C - C.T) / (steady.rate or 1.0), M]))
 
 
-def _shares(at: float, known: FloatArray) -> FloatArray:
-    """Return the values at the known places of Lagrange's polynomials, by which one is told."""
-    others = [np.delete(known, k) for k in range(known.size)]
-    apart = zip(known, others, strict=True)
-    return np.array([np.prod((at - other) / (one - other)) for one, other in apart])
-
-
 @dataclass(frozen=True, eq=False)
 class SpeedRange:
-    """Steady states at some speeds, and those between them by polynomials in ln(1 + w̄²/s).
+    """Steady states at some speeds, and those between them by polynomials.
 
-    For a large s that is w̄². A limp blade straightens at speeds low in the range: its state has
-    singularities at small negative w̄², from which the logarithm keeps away.
+    Of a blade that stays straight they are in w̄². Others straighten at speeds near their lowest
+    frequency w̄_1 at rest, and have singularities at w̄² < 0 of that size. The polynomials of theirs
+    are in ln(1 + w̄²/w̄_1²), which keeps away from these.
     """
 
     solved: tuple[Solved, ...]
-    bend: float = 10.0  # s over the highest w̄²
 
     @cached_property
     def _squares(self) -> FloatArray:
@@ -81,13 +74,17 @@ class SpeedRange:
     def _matrices(self) -> FloatArray:
         return np.array([one.matrices for one in self.solved])
 
-    @property
-    def _unit(self) -> float:
-        return self.bend * float(self._squares.max()) or 1.0
+    def _variable(self, squares: FloatArray) -> FloatArray:
+        first = self.solved[0].steady
+        straight = first.model.uncoupled
+        return squares if straight else np.log1p(squares / first.vibration[0][0] ** 2)
 
     def at(self, rate: float) -> SteadyBlade:
         """Return the blade at a rate, its state and tangent interpolated."""
-        shares = _shares(np.log1p(rate**2 / self._unit), np.log1p(self._squares / self._unit))
+        known, at = map(self._variable, (self._squares, np.array(rate**2)))
+        others = [np.delete(known, k) for k in range(known.size)]
+        apart = zip(known, others, strict=True)
+        shares = np.array([np.prod((at - other) / (one - other)) for one, other in apart])
         K, G, M = np.tensordot(shares, self._matrices, 1)[:, None]
         q = shares @ self._states
         given = q, Tangent(np.zeros((1, q.size)), K, rate * G, M)
@@ -96,25 +93,14 @@ class SpeedRange:
     def farther(self) -> tuple[SpeedRange, SteadyBlade, SteadyBlade]:
         """Return it with one more speed, and the blade there, interpolated before and solved.
 
-        Speeds are Leja's: the next is where the polynomial with zeros at all so far is largest. A
-        tenth or ten times s is taken where it tells the new state much better from the others.
+        Speeds are Leja's: the next is where the polynomial with zeros at all so far is largest.
         """
-        known = np.log1p(self._squares / self._unit)
-        places = np.linspace(known.min(), known.max(), _PLACES)
+        squares = self._squares[0] + _PLACES * (self._squares[1] - self._squares[0])
+        known, places = map(self._variable, (self._squares, squares))
         far = np.prod(np.abs(places[:, None] - known) / np.ptp(known), axis=1)
-        guess = self.at(math.sqrt(self._unit * np.expm1(places[np.argmax(far)])))
+        guess = self.at(math.sqrt(squares[np.argmax(far)]))
         steady = replace(guess, near=guess.equilibrium, given=None)
-        solved = *self.solved, _solved(steady)
-
-        def missed(bend: float) -> float:
-            trial = replace(self, bend=bend)
-            known = np.log1p(self._squares / trial._unit)
-            shares = _shares(np.log1p(steady.rate**2 / trial._unit), known)
-            return float(np.linalg.norm(shares @ self._states - steady.equilibrium))
-
-        best = min(0.1 * self.bend, 10.0 * self.bend, key=missed)
-        bend = best if missed(best) < _BETTER * missed(self.bend) else self.bend
-        return SpeedRange(solved, bend), guess, steady
+        return SpeedRange((*self.solved, _solved(steady))), guess, steady
 
     def way(self, rates: FloatArray, places: Sequence[int]) -> list[list[Stop]]:
         """Return the stops on the way to each rate, of modes in these places at the first."""
@@ -154,12 +140,15 @@ class SpeedRange:
             low, high = off.values()
             if low > 0.0 >= high or low < 0.0 <= high:
                 square = optimize.toms748(
-                    lambda s, known, *at: known[s] if s in known else self._softest(s, *at)[0],
-                    *off, args=(off, *at), xtol=1e-13 * last.rate**2, rtol=1e-13,
+                    self._past_line, first.rate**2, last.rate**2, args=(off, *at),
+                    xtol=1e-13 * last.rate**2, rtol=1e-13,
                 )  # fmt: skip
                 held = np.argmax(_assurance(first, self._softest(square, *at)[1]))
                 for column in np.flatnonzero(before.places == held).tolist():
                     yield column, order, math.sqrt(square)
+
+    def _past_line(self, square: float, known: dict[float, float], *at: int) -> float:
+        return known[square] if square in known else self._softest(square, *at)[0]
 
     def _softest(self, square: float, place: int, order: int) -> tuple[float, NDArray[Any]]:
         """Return the eigenvalue in one place of the dynamic stiffness at k w̄, and its shape."""
