@@ -1,4 +1,4 @@
-"""Axes for the results' own pictures: `Orbits.plot`, `Campbell.plot`, `ForcedResponse.plot`.
+"""Axes for the results' own pictures: `Orbits.plot`, `LinearModes.plot`, `ForcedResponse.plot`.
 
 The only module of the theory that knows matplotlib, and that only when something is drawn. The
 pictures have the reader's own settings; figures of the house are in `rotbeam_exu.figures`.
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _DRAWN = 61  # amplitudes, besides the orbits' own
 _FINE = 10  # pieces of what is drawn between two points of a response
 UNSTABLE: Any = {"ls": (0, (2.5, 1.5)), "lw": 0.8}
+DASHES = {"lag": "-", "flap": "--", "torsion": "-.", "axial": ":"}
+"""Lines of families of modes."""
 FOLD: Any = {"ls": "none", "marker": "o", "ms": 3.5, "mfc": "white"}
 """Line of the unstable part of a response, and marks of its folds."""
 

@@ -22,7 +22,8 @@ ResultT = TypeVar("ResultT")
 KNOWN = 1e-3
 """Largest change of the finest two solutions with which there is an answer."""
 _FINEST = 1e-12  # least tolerance above round-off
-_ROUND_OFF = 1e-9  # largest change that is round-off once it no longer falls
+ROUND_OFF = 1e-9
+"""Largest change that is round-off once it no longer falls."""
 
 
 def require_tolerance(tolerance: float | None, default: float) -> float:
@@ -74,16 +75,23 @@ def settled(
     for size in sizes:
         (coarser, finest), previous = (finest, solve(size)), change
         change = float(np.max(np.abs(np.subtract(of(finest), of(coarser)))))
-        if change <= tolerance:
-            return coarser, finest, change
-        if previous <= 2.0 * change <= _ROUND_OFF:
+        if change <= tolerance or previous <= 2.0 * change <= ROUND_OFF:
             break
+    judged(change, tolerance, what, remedy, left=left)
+    return coarser, finest, change
+
+
+def judged(
+    change: float, tolerance: float, what: str, remedy: str, *, left: float | None = None
+) -> None:
+    """Warn of a change of the finest two solutions beyond the tolerance, or refuse it."""
+    if change <= tolerance:
+        return
     sentence = f"the finest two solutions differ by {change:.1e} in {what}"
     if change > (KNOWN if left is None else left):
         raise ValueError(f"{sentence}; {remedy}")
     if left is None:
         warn(f"{sentence}, more than the tolerance of {tolerance:g}: take a larger one, {remedy}")
-    return coarser, finest, change
 
 
 def refined(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -99,20 +100,23 @@ def _print(diagram: Campbell) -> None:
         # Torsion has four digits, for the section may be kept from warping.
         return formatted(values, "#.4g" if name.startswith("torsion") else ".6f")
 
-    omega = "ω [rad/s]"
-    columns = zip(diagram.names, diagram.frequencies.T.tolist(), strict=True)
-    print_columns(
-        {omega: formatted(diagram.omegas, ".4g")}
-        | {name: column(frequencies, name) for name, frequencies in columns},
-        title="Frequencies [rad/s]",
-    )
+    omega, turn, names = "ω [rad/s]", 2.0 * math.pi, diagram.names
+    for unit, speed, per_second, over in (("rad/s", omega, 1.0, 1.0), ("Hz", "rpm", turn, 60.0)):
+        rows = (diagram.frequencies.T / per_second).tolist()
+        print_columns(
+            {speed: formatted(diagram.omegas * over / per_second, ".4g")}
+            | {name: column(row, name) for name, row in zip(names, rows, strict=True)},
+            title=f"Frequencies [{unit}]",
+        )
     met = diagram.crossings
     print_columns(
         {
             "mode": [one.mode for one in met],
             "k": [str(one.order) for one in met],
-            omega: [cell for one in met for cell in column([one.omega], one.mode)],
+            omega: [x for one in met for x in column([one.omega], one.mode)],
+            "rpm": formatted([60.0 * one.omega / turn for one in met], ".4g"),
             "frequency [rad/s]": [x for one in met for x in column([one.frequency], one.mode)],
+            "Hz": formatted([one.frequency / turn for one in met], ".4g"),
         },
         title="Crossings with the lines k ω",
     )

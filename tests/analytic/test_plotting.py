@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from analytic import Rectangle, Tube, backbone_curve, campbell, periodic_orbits
+from analytic import Rectangle, Tube, backbone_curve, campbell, linear_modes, periodic_orbits
 from analytic.plotting import apart
 
 
@@ -72,6 +72,26 @@ def test_the_dots_of_a_campbell_diagram_lie_on_its_curves(beam):
         curve = curves[one.mode]
         drawn = np.interp(one.omega, curve.get_xdata(), curve.get_ydata())
         assert drawn == pytest.approx(one.frequency, abs=ax.get_ylim()[1] / 1200.0)
+
+
+def test_a_campbell_diagram_has_scales_in_hertz_and_revolutions_a_minute(beam):
+    ax = campbell(beam, [0.0, 4.0], 1).plot()
+    ax.figure.draw_without_rendering()
+    speed, frequency = ax.child_axes
+    assert speed.get_xlim() == pytest.approx((0.0, 4.0 * 60.0 / (2.0 * np.pi)))
+    assert frequency.get_ylim() == pytest.approx(np.array(ax.get_ylim()) / (2.0 * np.pi))
+
+
+def test_modes_are_drawn_by_the_part_of_their_family(beam):
+    """Lag of a cantilever at rest: its tip is 1, and mode j has j - 1 nodes between."""
+    modes = linear_modes(beam.with_shape(Rectangle()), 0.0, 5)
+    ax = modes.plot()
+    texts = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert texts[0] == f"flap 1, {modes.frequencies[0] / (2.0 * np.pi):.4g} Hz"
+    for name, line in zip(modes.names, ax.lines, strict=True):
+        shape = line.get_ydata()
+        assert shape[[0, -1]] == pytest.approx([0.0, 1.0], abs=1e-9)
+        assert np.count_nonzero(np.diff(np.sign(shape[1:]))) == int(name.split()[1]) - 1
 
 
 def test_a_blade_is_named_by_the_plane_that_it_bends_in(beam):

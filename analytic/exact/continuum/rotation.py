@@ -130,6 +130,7 @@ class SteadyBlade:
     load: tuple[tuple[float, ...], ...] = ()  # dead force and moment at the tip, over EI3/L², EI3/L
     lift: float = 0.0  # pull on all masses along the axis of rotation, over EI3/(m0 L³)
     mirror: bool = False
+    given: tuple[FloatArray, Tangent] | None = None  # steady state and its tangent, if known
     driven: ClassVar[bool] = False
 
     @property
@@ -217,6 +218,8 @@ class SteadyBlade:
 
     @cached_property
     def _steady(self) -> tuple[FloatArray, Tangent]:
+        if self.given is not None:
+            return self.given
         return Equilibrium(self.model, self.rate, self.push).followed(self.near)
 
     def gauge(self, q: FloatArray) -> FloatArray:
@@ -295,6 +298,12 @@ class SteadyBlade:
         shapes = np.zeros((self.size, np.count_nonzero(kept)), dtype=np.complex128)
         shapes[moving] = turn[:, None] * modes[:, kept]
         return 1.0 / inverse[kept], shapes
+
+    def dynamic_stiffness(self, frequency: float) -> ComplexArray:
+        """Return K + iΩC - Ω²M of small vibration, with a skew C, (n, n)."""
+        _, K, C, M = (part[0] for part in self.linearized)
+        whole = K - frequency**2 * M + 0.5j * frequency * (C - C.T)
+        return np.asarray(0.5 * (whole + whole.conj().T))
 
     @cached_property
     def tip(self) -> FloatArray:

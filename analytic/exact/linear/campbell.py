@@ -2,34 +2,37 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise, product
+from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy import optimize
+from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
 from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm
 from ...input_checks import finite_values, require_ascending, rotation_speed, whole_number
-from ...plotting import apart, axes_or_new, cycled, free_place
+from ...plotting import DASHES, apart, axes_or_new, cycled, free_place
+from ...settled import require_tolerance
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from .families import Family, LinearModes
-from .modes import modes_from, modes_on
+from ..continuum.rotation import rotating_blade
+from .families import Family, LinearModes, mode_names, places_of
+from .modes import modes_from
+from .speeds import SpeedRange, Stop, range_between
 
 if TYPE_CHECKING:
     from ...plotting import Axes
 
 _SOLVED, _DRAWN = 9, 61  # speeds of a picture's curves, besides their own: chords below a pixel
-_LOOKS = ("lag", "flap", "torsion", "axial")  # families, by colors and dashes
-_SPARE_MODES = 3  # beyond those asked for, so that a mode that sinks is still found
+_SPARE_MODES = 3  # resolved beyond those asked for, as some rise above others
+_HERTZ, _PER_MINUTE = (
+    (lambda x, n=n: x * n / (2.0 * np.pi), lambda x, n=n: x * (2.0 * np.pi) / n) for n in (1, 60)
+)
+_KNOWN = 1e-6  # by which two models may differ in a frequency
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,15 +69,16 @@ class Campbell:
     frequencies : ndarray (speeds, count)
         Frequencies in the rotating frame [rad/s], one column for each tracked mode.
     mac : ndarray (speeds - 1, count)
-        Modal assurance criterion of each mode from one speed to the next; well below 1 the
-        tracking is in doubt and the speeds are too far apart.
+        Least modal assurance criterion of each mode on the way from one speed to the next, by
+        steps that are halved where it is below 0.7; where it still is, the tracking is in doubt.
     crossings : tuple of Crossing
         Where frequencies cross the lines kω, k from 1, within the speeds.
     names : tuple of str
         The name of each column, "lag 1" say, by the shares of the mode at the lowest speed.
     theory : Theory
     error : float
-        Largest relative change of the frequencies at both ends by the last refinement.
+        Largest relative change of the frequencies by the last refinement at both ends, and by the
+        last speed that was solved between them.
 
     Examples
     --------
@@ -93,21 +97,15 @@ class Campbell:
     names: tuple[str, ...]
     theory: Theory
     error: float
-    _only: Family | None = field(repr=False)
-    _tolerance: float | None = field(repr=False)
+    _between: SpeedRange = field(repr=False)
+    _places: list[int] = field(repr=False)
 
     @cached_property
     def _curves(self) -> tuple[FloatArray, FloatArray]:
         """Speeds near enough for a picture, and the frequencies there, (speeds, columns)."""
-        even = np.linspace(self.omegas[0], self.omegas[-1], _SOLVED)
-        apart_ = np.abs(even[:, None] - self.omegas).min(axis=1) > 0.5 * (even[1] - even[0])
-        speeds, frequencies = self.omegas, self.frequencies
-        if apart_.any():
-            speeds = np.sort(np.concatenate((speeds, even[apart_])))
-            more = _diagram(
-                self.blade, speeds, len(self.names), 0, self._only, self.theory, self._tolerance
-            )
-            frequencies = more.frequencies
+        speeds = np.union1d(np.linspace(self.omegas[0], self.omegas[-1], _SOLVED), self.omegas)
+        scale = self.blade.frequency_scale
+        frequencies = scale * _frequencies(self._between.way(speeds / scale, self._places))
         drawn = np.union1d(np.linspace(speeds[0], speeds[-1], _DRAWN), speeds)
         # Squares of frequencies are nearly straight over those of the speed.
         squares = PchipInterpolator(speeds**2, frequencies**2)(drawn**2)
@@ -145,8 +143,8 @@ class Campbell:
         for kind, name, row, height in zip(kinds, self.names, curves.T, heights, strict=True):
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
-            family = _LOOKS.index(kind)
-            (line,) = ax.plot(omegas, row, color=cycled(family), ls=("-", "--", "-.", ":")[family])
+            color = cycled(list(DASHES).index(kind))
+            (line,) = ax.plot(omegas, row, color=color, ls=DASHES[kind])
             ax.annotate(
                 name, (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,
@@ -157,6 +155,9 @@ class Campbell:
             xlabel="angular velocity ω [rad/s]", ylabel="natural frequency [rad/s]",
             xlim=(low, high), ylim=(0.0, top),
         )  # fmt: skip
+        # Names are at the right, and orders on top.
+        ax.secondary_xaxis(-0.22, functions=_PER_MINUTE).set_xlabel("speed [rpm]")
+        ax.secondary_yaxis(-0.2, functions=_HERTZ).set_ylabel("[Hz]")
         return ax
 
 
@@ -222,93 +223,70 @@ def _diagram(
     tolerance: float | None,
 ) -> Campbell:
     """Return the diagram of so many modes."""
-    wanted = count + _SPARE_MODES
-    ends: list[LinearModes] = []
     warn_if_rpm(blade, float(speeds[-1]))
-    for omega in sorted({float(speeds[0]), float(speeds[-1])}):
-        near = ends[-1] if ends else None
-        ends.append(
-            modes_from(near, blade, omega, wanted, only, theory, max(20, 2 * wanted), tolerance)
+    ends = np.unique(speeds[[0, -1]]).tolist()
+
+    def resolved(omega: float, wanted: int, near: LinearModes | None) -> LinearModes:
+        functions = max(20, 2 * wanted)
+        return modes_from(near, blade, omega, wanted, only, theory, functions, tolerance)
+
+    wanted = count + _SPARE_MODES
+    low = resolved(ends[0], wanted, None)
+    while True:
+        modes = [low, *(resolved(omega, wanted, low) for omega in ends[1:])]
+        # A model that resolves the modes at both ends does so between them.
+        finest = max(modes, key=lambda one: one.model.size)
+        steady = [
+            one.steady
+            if one.model is finest.model
+            else rotating_blade(finest.blade, one.omega, finest.model)
+            for one in modes
+        ]
+        known = modes[-1].frequencies[-1] / blade.frequency_scale
+        told = int(np.searchsorted(steady[-1].vibration[0], (1.0 + _KNOWN) * known))
+        between, error = range_between(
+            steady,
+            told,
+            require_tolerance(tolerance, finest.model.tolerance),
+            f"the frequencies from {ends[0]:g} to {ends[-1]:g} rad/s",
         )
-    # A model that resolves the modes at both ends does so between them.
-    finest = max(ends, key=lambda modes: modes.model.size)
+        all_names = mode_names(steady[0].shares)
+        places = places_of(all_names, count, only)
+        ways = between.way(speeds / blade.frequency_scale, places)
+        last = ways[-1][-1]
+        if last.places.max() < told:
+            break
+        # One of them has risen above others.
+        below = mode_names(last.steady.shares)[: last.places.max() + 1]
+        wanted = max(wanted + 1, len(places_of(below, len(below), only)))
 
-    def modes_at(omega: float, near: LinearModes | None = None) -> LinearModes:
-        return modes_on(finest.model, finest.blade, omega, wanted, theory, only, near=near)
-
-    found: list[LinearModes] = []
-    for omega in speeds.tolist():
-        found.append(modes_at(omega, *found[-1:]))
-    columns = [np.arange(count)]
-    assurances = []
-    for here, there in pairwise(found):
-        assurance = _assurance(here, there)[columns[-1]]
-        columns.append(_followed(assurance))
-        assurances.append(assurance[np.arange(count), columns[-1]])
-
-    names = found[0].names[:count]
+    names = tuple(all_names[place] for place in places)
     crossings = [
-        Crossing(mode=names[column], order=order, omega=omega, frequency=order * omega)
-        for pair, places in zip(pairwise(found), pairwise(columns), strict=True)
-        for column, order, omega in _met(pair, places, orders, modes_at)
+        Crossing(
+            mode=names[column],
+            order=order,
+            omega=rate * blade.frequency_scale,
+            frequency=order * (rate * blade.frequency_scale),
+        )
+        for before, after in pairwise(chain.from_iterable(ways))
+        for column, order, rate in between.crossings(before, after, orders)
     ]
     return Campbell(
         blade=blade,
         omegas=speeds,
-        frequencies=np.array([m.frequencies[c] for m, c in zip(found, columns, strict=True)]),
-        mac=np.array(assurances).reshape(-1, count),
+        frequencies=_frequencies(ways) * blade.frequency_scale,
+        mac=np.array(
+            [np.min([stop.assurance for stop in way], axis=0) for way in ways[1:]]
+        ).reshape(-1, count),
         crossings=tuple(sorted(crossings, key=lambda c: (names.index(c.mode), c.order))),
         names=names,
         theory=theory,
-        error=max(modes.error for modes in ends),
-        _only=only,
-        _tolerance=tolerance,
+        error=max(error, *(one.error for one in modes)),
+        _between=between,
+        _places=places,
     )
 
 
-def _met(
-    ends: tuple[LinearModes, LinearModes],
-    columns: tuple[NDArray[np.intp], NDArray[np.intp]],
-    orders: int,
-    modes_at: Callable[..., LinearModes],
-) -> Iterator[tuple[int, int, float]]:
-    """Yield column, k and ω where frequencies cross kω between two speeds.
-
-    In ascending order frequencies are continuous. A mode followed by its shape changes its place
-    at once where two of them veer, and passes a line in between without being there.
-    """
-    known = {modes.omega: modes for modes in ends}
-
-    def at(square: float) -> LinearModes:
-        omega = math.sqrt(square)
-        if omega not in known:
-            known[omega] = modes_at(omega, min(ends, key=lambda modes: abs(modes.omega - omega)))
-        return known[omega]
-
-    def detuning(square: float, place: int, order: int) -> float:
-        # Squares of frequencies are nearly straight over that of the speed.
-        return float(at(square).frequencies[place] ** 2 - order**2 * square)
-
-    for place, order in product(np.union1d(*columns).tolist(), range(1, orders + 1)):
-        before, after = (modes.frequencies[place] - order * modes.omega for modes in ends)
-        if before > 0.0 >= after or before < 0.0 <= after:
-            low, high = (modes.omega**2 for modes in ends)
-            square = optimize.toms748(
-                detuning, low, high, args=(place, order), xtol=1e-13 * high, rtol=1e-13
-            )
-            held = _followed(_assurance(ends[0], at(square))[columns[0]])
-            for column in np.flatnonzero(held == place).tolist():
-                yield column, order, math.sqrt(square)
-
-
-def _followed(assurance: FloatArray) -> NDArray[np.intp]:
-    """Return the mode that continues each tracked one, all of them different."""
-    return np.asarray(optimize.linear_sum_assignment(-assurance)[1])
-
-
-def _assurance(one: LinearModes, other: LinearModes) -> FloatArray:
-    """Modal assurance criterion of all pairs, in the energy norm of the beam at rest."""
-    a, b = one.coordinates, other.coordinates
-    a = a / np.linalg.norm(a, axis=1, keepdims=True)
-    b = b / np.linalg.norm(b, axis=1, keepdims=True)
-    return np.asarray(np.abs(a.conj() @ b.T) ** 2)
+def _frequencies(ways: list[list[Stop]]) -> FloatArray:
+    """Return the frequencies where each way ends, (speeds, columns)."""
+    return np.array([way[-1].steady.vibration[0][way[-1].places] for way in ways])

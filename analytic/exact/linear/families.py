@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +13,15 @@ from numpy.typing import ArrayLike
 from ...arrays import ComplexArray, FloatArray
 from ...blade import Blade
 from ...input_checks import points_of_beam
+from ...plotting import DASHES, axes_or_new
 from ...theory import Theory
 from ..continuum.rotation import GAUGES, Model, SteadyBlade
 from ..continuum.space import SpaceContinuum
 
+if TYPE_CHECKING:
+    from ...plotting import Axes
+
+_DRAWN = 201  # points of a shape
 _ONLY_TURNS = 1e-6  # displacement of the tip over the length, times its turn
 Family = Literal["flap", "lag", "torsion", "axial"]
 """A family of modes, by the largest share of their kinetic energy."""
@@ -106,6 +111,29 @@ class LinearModes:
         largest = np.take_along_axis(tip, np.argmax(np.abs(tip), axis=0)[None], axis=0)[0]
         only_turns = np.abs(largest) < _ONLY_TURNS * length * np.abs(parts[3, -1])
         return np.asarray(parts[:, :-1] / np.where(only_turns, parts[3, -1], largest))
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the shapes along the blade, named, with their frequencies in Hz; return the axes.
+
+        Of each mode its family's part, the largest value 1, in the phase of this value.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+        """
+        ax = axes_or_new(ax)
+        x = np.linspace(0.0, self.blade.length, _DRAWN)
+        moved = dict(zip(("axial", "lag", "flap", "torsion"), self.shapes(x), strict=True))
+        for k, (name, frequency) in enumerate(zip(self.names, self.frequencies, strict=True)):
+            family = name.split()[0]
+            shape = moved[family][:, k]
+            shape = (shape / shape[np.argmax(np.abs(shape))]).real
+            label = f"{name}, {frequency / (2.0 * math.pi):.4g} Hz"
+            ax.plot(x, shape, ls=DASHES[family], label=label)
+        ax.set(xlabel="x [m]", ylabel="shape", xlim=(0.0, self.blade.length))
+        ax.legend(title=f"ω = {self.omega:.4g} rad/s")
+        return ax
 
     def lowest(self, count: int, only: Family | None = None) -> LinearModes:
         """Return the lowest modes, of all or of one family."""

@@ -18,7 +18,6 @@ from ...threads import one_thread
 from ..continuum.planar import MOST_FUNCTIONS
 from ..continuum.rotation import (
     FUNCTIONS,
-    Model,
     SteadyBlade,
     continuum_of,
     finer_blades,
@@ -197,25 +196,6 @@ def mode_name(blade: Blade, omega: float, mode: object, theory: Theory) -> str:
             f"are {', '.join(FAMILIES)}"
         )
     return f"{family} {int(number_of)}"
-
-
-def modes_on(
-    model: Model,
-    blade: Blade,
-    omega: float,
-    count: int,
-    theory: Theory,
-    only: Family | None = None,
-    *,
-    near: LinearModes | None = None,
-) -> LinearModes:
-    """Return the modes on a discretization known to resolve them, unchecked.
-
-    The steady state is sought from that of modes on it at a speed nearby.
-    """
-    at = None if near is None else near.steady.equilibrium
-    steady = rotating_blade(blade, omega, model, near=at)
-    return modes_of(blade, omega, theory, steady).lowest(count, only)
 
 
 @one_thread
