@@ -5,7 +5,15 @@ import warnings
 import numpy as np
 import pytest
 
-from analytic import Blade, RotbeamWarning, Theory, linear_modes, steady_state
+from analytic import (
+    Blade,
+    RotbeamWarning,
+    SpinUp,
+    Theory,
+    linear_modes,
+    spin_up_response,
+    steady_state,
+)
 from analytic.exact.continuum.unit import StationUnit
 
 SIGMAS = (0.001, 0.005, 0.03)  # of the centers, over the length
@@ -60,6 +68,18 @@ def test_errors_are_not_larger_than_told(sigma, theory, by_panels):
     assert np.abs(state.tip - there.tip).max() < state.error + there.error
 
 
+@pytest.mark.slow
+def test_the_error_of_a_spin_up_is_not_larger_than_told(by_panels):
+    blade, motion, times = table(3, 0.03, 6), SpinUp(omega=3.0, ramp_time=2.0), [1.0, 2.0]
+    found = spin_up_response(blade, motion, times, tolerance=1e-3)
+    by_panels()
+    known = spin_up_response(blade, motion, times, tolerance=1e-4)
+    assert known._model.blade.panel_count == 5
+    size = np.abs(known.tip[:, 1:]).max()
+    for one, other in ((found.tip, known.tip), (found.twist, known.twist)):
+        assert np.abs(one - other).max() < (found.error + known.error) * size
+
+
 def test_fifty_stations_with_steps_of_three():
     """As an owner of a real blade has them."""
     modes = linear_modes(table(7, 0.03, 50), 4.0, 6)
@@ -81,7 +101,7 @@ def test_forty_tables_are_answered(sigma, theory):
 
 def test_short_of_its_tolerance_an_answer_comes_with_a_warning(monkeypatch):
     """And one that is not known to 1e-3 is refused."""
-    monkeypatch.setattr("analytic.exact.continuum.rotation.MOST_FUNCTIONS", 25)
+    monkeypatch.setattr("analytic.exact.continuum.space.SpaceContinuum.most_functions", 25)
     blade = table(3, 0.03, 12)
     with pytest.warns(RotbeamWarning, match="more than the tolerance of 1e-10"):
         modes = linear_modes(blade, 4.0, 6, tolerance=1e-10)
@@ -89,7 +109,7 @@ def test_short_of_its_tolerance_an_answer_comes_with_a_warning(monkeypatch):
     with warnings.catch_warnings():
         warnings.simplefilter("error", RotbeamWarning)
         assert linear_modes(blade, 4.0, 6, tolerance=10.0 * modes.error).error <= modes.error
-    monkeypatch.setattr("analytic.exact.continuum.rotation.MOST_FUNCTIONS", 20)
+    monkeypatch.setattr("analytic.exact.continuum.space.SpaceContinuum.most_functions", 20)
     with pytest.raises(ValueError, match=r"differ by .*; ask for fewer modes, or rotate slower"):
         linear_modes(blade, 4.0, 6)
 
