@@ -73,6 +73,7 @@ class LinearModes:
     >>> along, lag, flap, twist = modes.shapes([4.0, 8.0])
     >>> print(lag[:, 0].real.round(3))
     [0.389 1.   ]
+    >>> ax = modes.plot()
     """
 
     blade: Blade
