@@ -14,16 +14,16 @@ from numpy.typing import ArrayLike
 from ...arrays import FloatArray, few_at_once
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm
-from ...input_checks import finite_number, points_of_beam, positive, times_from_rest
+from ...input_checks import points_of_beam, positive, times_from_rest
 from ...loads import Load, loads_in_time, rippled
-from ...motion import SpeedChange, require_ramp
+from ...motion import SpeedChange, SteadyRotation, require_ramp
 from ...settled import KNOWN
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ...warning import warn
-from ..continuum.rotation import continuum_of, require_bent, rotating_blade
-from ..continuum.state import SectionLoads, in_newtons
-from ..linear.families import flap_shape
+from ..continuum.rotation import continuum_of, rotating_blade
+from ..continuum.state import BladeState, SectionLoads, in_newtons, state_of
+from .start import Start, checked_start, started
 from .transient import drive, grid_of, integrated
 
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -44,7 +44,7 @@ class SpinUpResponse:
 
     Attributes
     ----------
-    beam, spin_up, loads, theory : as given
+    beam, spin_up, loads, start, theory : as given
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)
@@ -70,8 +70,9 @@ class SpinUpResponse:
     """
 
     blade: Blade
-    spin_up: SpeedChange
+    spin_up: SpeedChange | SteadyRotation
     loads: tuple[Load, ...]
+    start: Start
     theory: Theory
     time: FloatArray
     q: FloatArray = field(repr=False)
@@ -100,6 +101,11 @@ class SpinUpResponse:
         standing, loads = (place, section), (force, moment)
         return in_newtons(self.blade, at, standing, loads, model.trapeze)
 
+    def state(self, i: int, x: ArrayLike) -> BladeState:
+        """Return the state at time `i` at the material points `x` [m], to start a motion from."""
+        q, q_dot, _ = self._state[:, i]
+        return state_of(self.blade, self._model, q, q_dot, x)
+
     @property
     def lag(self) -> FloatArray:
         """Place of the tip in the direction of rotation [m], (times,)."""
@@ -125,13 +131,14 @@ class SpinUpResponse:
 @one_thread
 def spin_up_response(
     blade: Blade,
-    spin_up: SpeedChange,
+    spin_up: SpeedChange | SteadyRotation,
     times: float | ArrayLike,
     *,
     tolerance: float = 1e-8,
     theory: Theory = BERNOULLI_EULER,
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
+    start: Start = "straight",
     kick: float = 0.0,
     bent: float = 0.0,
 ) -> SpinUpResponse:
@@ -144,8 +151,8 @@ def spin_up_response(
     Parameters
     ----------
     blade : Blade
-    spin_up : SpinUp, FourierRamp or SpeedTable
-        Before it the beam is straight, and stretched as the speed at t = 0 has it.
+    spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
+        Before it the beam turns at its speed at t = 0.
     times : array_like
         Times of the response [s], ascending, not before 0.
     tolerance : float
@@ -157,6 +164,11 @@ def spin_up_response(
         Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
     loads : sequence of loads
         What acts from t = 0 on: gravity, forces and ripples, each with its frequency.
+    start : {"straight", "steady"} or callable
+        State at t = 0. "straight", as the speed alone has it, lets loads that act at once excite
+        every wave; "steady" is the steady state under the loads as they are at t = 0. A function
+        returns the `BladeState` at points x [m], as `simulate` takes it: of an orbit
+        ``lambda x: orbits.state(0, x)``, of a response before ``lambda x: found.state(-1, x)``.
     kick : float
         Speed of the tip out of the plane at t = 0 [m/s], of a planar blade that is still straight:
         its points move as `analytic.exact.continuum.state.flap_of_kick` has it.
@@ -181,37 +193,35 @@ def spin_up_response(
     [-2.0782 -3.9266  1.442 ]
     """
     time, tolerance = _checked(times, tolerance)
-    require_ramp(spin_up)
+    if not isinstance(spin_up, SteadyRotation):
+        require_ramp(spin_up)
     highest = spin_up.fastest
     warn_if_rpm(blade, highest)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
     along = points_of_beam("points", points, blade.length)
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
-    kick, bent = finite_number("kick", kick, "m/s"), require_bent("bent", bent)
-    if (kick or bent) and not blade.is_planar:
-        raise ValueError(
-            "kick and bent move a blade out of its plane, which this one leaves by itself: leave "
-            "them out"
-        )
+    kick, bent = checked_start(blade, start, kick, bent)
     coarser, error, size = None, math.inf, 0.0
     functions = math.ceil(_A_DIGIT * digits)
     table = blade.unit.cells.size > _MANY_CELLS
     # The kinks of a table leave an algebraic tail.
-    more = max(functions // 2 if table else _MORE_FUNCTIONS, blade.unit.panel_count)
+    more = functions // 2 if table else _MORE_FUNCTIONS
     tight = _WITHIN * tolerance
     for level in range(_REFINEMENTS):
         model: Any = continuum_of(
             blade, theory, functions, functions, axial=functions // 2, loads=loads,
             leaves=bool(kick or bent),
         )  # fmt: skip
+        more = max(more, model.blade.panel_count)
         within = tight if model.has_dear_tangent else None
         rotating_blade(blade, highest, model)  # refuses a speed that tears the blade
         grid = _grid(blade, spin_up, float(time[-1]), digits, None if within else level)
-        q = rotating_blade(blade, spin_up.start, model).equilibrium
-        if bent:
-            q = q + bent * flap_shape(model)
-        q_dot = model.struck(kick / (blade.length * blade.frequency_scale)) if kick else 0.0
+        q, q_dot = started(blade, model, spin_up.start, start, loads, kick, bent)
+        if callable(start) and within and not (level or table):
+            # Functions that do not resolve the start swing about it in waves of their own.
+            functions = max(model.needed(q[None], tolerance), functions + more)
+            continue
         finer = integrated(blade, rotation, loads, model, grid, time, along, q, q_dot, within)
         functions += more
         if finer is None:
@@ -241,6 +251,7 @@ def spin_up_response(
         blade=blade,
         spin_up=spin_up,
         loads=loads,
+        start=start,
         theory=theory,
         time=time,
         points=blade.length * along,
@@ -283,21 +294,25 @@ def _what_to_try(error: float, size: float, end: float) -> str:
 
 
 def _grid(
-    blade: Blade, spin_up: SpeedChange, end: float, digits: float, level: int | None
+    blade: Blade,
+    spin_up: SpeedChange | SteadyRotation,
+    end: float,
+    digits: float,
+    level: int | None,
 ) -> FloatArray:
     """Return the ends of steps [s], or without a level of stretches that are cut into steps.
 
     One of them is the end of the ramp, where Eq. 1 has a kink, as others may.
     """
-    corners = [0.0, min(spin_up.ramp_time, end)]
-    if end > spin_up.ramp_time:
-        corners.append(end)
+    corners = sorted({0.0, min(spin_up.ramp_time, end), end})
     # A short ramp still has to be seen as the smooth curve it is.
-    lengths = spin_up.shortest_wave, end
+    lengths: tuple[float, ...] = spin_up.shortest_wave, end
     if level is not None:
         rate = spin_up.fastest / blade.frequency_scale
         first = float(np.interp(digits, (6.0, 8.0), _STEPS)) / _SHORTER**level
         longest = first * min(1.0, 10.0 / rate if rate else 1.0) / blade.frequency_scale
         lengths = min(longest, spin_up.shortest_wave / 4.0), longest
+    if not spin_up.ramp_time:
+        lengths = lengths[1:]
     parts = zip(pairwise(corners), lengths, strict=False)
     return grid_of(corners, [math.ceil((b - a) / step) for (a, b), step in parts])
