@@ -191,10 +191,10 @@ def test_rates_and_gradients_of_a_shape_are_those_of_differences(shear):
     assert model.slope_rate(q, q_dot, x) == pytest.approx(slope, abs=1e-8)
 
     def angle(at, x):
-        section = model.standing(at, x, 0.0)[1]
+        section = model.standing(at, x)[1]
         return np.arctan2(section[..., 1, 0], section[..., 0, 0])
 
-    turns = [model.moved(*pair, x, 0.0)[1][2, :, 0] for pair in zip(q, q_dot[:, None], strict=True)]
+    turns = [model.moved(*pair, x)[1][2, :, 0] for pair in zip(q, q_dot[:, None], strict=True)]
     assert np.real(turns) == pytest.approx(rate(lambda at: angle(at, x)), abs=1e-8)
     curvature, extension, change = (one[0] for one in model.bent(q[:1]))
     places = [model.points + step for step in (h, 0.0, -h)]

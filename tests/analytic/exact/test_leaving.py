@@ -1,7 +1,6 @@
 """Branches that leave the plane: where they are born, how they grow, and that they are motions."""
 
 import math
-from functools import partial
 
 import numpy as np
 import pytest
@@ -48,14 +47,11 @@ def after_ten_periods(orbit, steps):
     method, system, h = radau(8), orbit.system, 20.0 * np.pi / orbit.frequency / steps
     q, q_dot, start = (part[0] for part in orbit.coordinates(np.zeros(1)))
     found = np.broadcast_to(start, (8, q.size))
-    factors = None
     for _ in range(steps):
-        step = partial(
-            method.step, h, q, q_dot, np.broadcast_to(found[-1], found.shape), newton=STEP,
+        found = method.step(
+            h, q, q_dot, np.broadcast_to(found[-1], found.shape), newton=STEP,
             residual=system.residual, tangent=system.tangent,
-        )  # fmt: skip
-        root = step(factors=factors) or step()
-        found, factors = root.z, root.factors
+        ).z  # fmt: skip
         q, q_dot = (part[-1] for part in method.stages(h, q, q_dot, found)[:2])
     return system.model.tip(q[None])[0]
 

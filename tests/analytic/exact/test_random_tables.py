@@ -81,7 +81,7 @@ def test_forty_tables_are_answered(sigma, theory):
 
 def test_short_of_its_tolerance_an_answer_comes_with_a_warning(monkeypatch):
     """And one that is not known to 1e-3 is refused."""
-    monkeypatch.setattr("analytic.exact.continuum.rotation.MOST_FUNCTIONS", 25)
+    monkeypatch.setattr("analytic.exact.continuum.space.SpaceContinuum.most_functions", 25)
     blade = table(3, 0.03, 12)
     with pytest.warns(RotbeamWarning, match="more than the tolerance of 1e-10"):
         modes = linear_modes(blade, 4.0, 6, tolerance=1e-10)
@@ -89,7 +89,7 @@ def test_short_of_its_tolerance_an_answer_comes_with_a_warning(monkeypatch):
     with warnings.catch_warnings():
         warnings.simplefilter("error", RotbeamWarning)
         assert linear_modes(blade, 4.0, 6, tolerance=10.0 * modes.error).error <= modes.error
-    monkeypatch.setattr("analytic.exact.continuum.rotation.MOST_FUNCTIONS", 20)
+    monkeypatch.setattr("analytic.exact.continuum.space.SpaceContinuum.most_functions", 20)
     with pytest.raises(ValueError, match=r"differ by .*; ask for fewer modes, or rotate slower"):
         linear_modes(blade, 4.0, 6)
 

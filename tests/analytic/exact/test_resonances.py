@@ -30,9 +30,10 @@ def orbit_at(a, *, harmonics=7, pole=0.36, background=0.0, rate=1.0, setting=1.0
     sines = 0.1 ** np.arange(harmonics) * a
     if harmonics > 5:
         sines[5] = a * (1e-3 / (pole - a) + background)
-    model = SimpleNamespace(setting=setting)
+    model = SimpleNamespace(skews=lambda rate: abs(rate * setting) > 1e-9)
     return SimpleNamespace(
-        amplitude=a, frequency=2.0 - a**2, harmonics=harmonics, gauge_sines=sines,
+        amplitude=a, frequency=2.0 - a**2, harmonics=harmonics,
+        gauge_harmonics=np.append(0.0, -1j * sines),
         sizes=np.abs(sines), system=SimpleNamespace(rate=rate, model=model),
     )  # fmt: skip
 

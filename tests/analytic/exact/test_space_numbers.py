@@ -100,7 +100,7 @@ def test_propeller_moment_and_trapeze_effect(theory, bending, torsion, untwist):
     if torsion is not None:
         assert modes.frequencies[6] == pytest.approx(torsion, abs=6e-6)
         assert modes.shares[6, 2] > 0.99
-    model, q = modes.model, modes._steady
+    model, q = modes.model, modes.steady.equilibrium
     K = model.strains.K[0] @ q
     assert model.weights @ K == pytest.approx(untwist, abs=6e-7)
     assert steady_state(blade, 4.0, theory=theory).twist == pytest.approx(untwist, abs=6e-7)

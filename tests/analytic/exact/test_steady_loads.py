@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import make_interp_spline
 
-from analytic import Beam, Theory, steady_state
+from analytic import Beam, RotbeamWarning, Theory, steady_state
 from analytic.exact.continuum.rotation import rotating_blade, space_continuum
 from analytic.exact.continuum.space import SpaceContinuum
 from rotbeam_exu.files.beam_file import load_beam
@@ -44,7 +44,7 @@ def along(blade):
 )
 def test_the_root_carries_weight_tip_force_and_acceleration(blade, omega, gravity, force):
     """Root force and moment are integrals of loads times levers at the deformed places."""
-    state = steady_state(blade, omega, gravity=gravity, force=force)
+    state = steady_state(blade, omega, gravity=gravity, force=force, tolerance=1e-7)
     x, dx = along(blade)
     at, root = state.section_loads(x), state.section_loads([0.0])
     M = np.array(blade.section.mass)
@@ -114,8 +114,8 @@ def test_a_load_beyond_all_bounds_is_refused(load):
         steady_state(STRIP, 0.0, **load)
 
 
-def test_newtons_for_kilonewtons_are_refused():
-    with pytest.raises(ValueError, match="rotate slower, or load it less"):
+def test_newtons_for_kilonewtons_are_warned_of():
+    with pytest.warns(RotbeamWarning, match="rotate slower, or load it less"):
         steady_state(STRIP, 2.0, force=(0.0, 0.0, 1e6))
     thousandth = steady_state(STRIP, 2.0, force=(0.0, 0.0, 1e3))
     assert thousandth.tip[2] > 0.9 * STRIP.length
