@@ -17,10 +17,10 @@ import numpy as np
 from .arrays import ComplexArray, FloatArray
 from .description import kinds_of
 from .input_checks import finite_number, not_negative
-from .load import Load as Load
+from .load import Load as Load  # noqa: PLC0414  (everyone has these from here)
 from .motion import Rippled, Rotation
-from .span_loads import LoadTable as LoadTable
-from .span_loads import PointLoad as PointLoad
+from .span_loads import LoadTable as LoadTable  # noqa: PLC0414
+from .span_loads import PointLoad as PointLoad  # noqa: PLC0414
 
 _CARRIERS = ("mass", "length", "tip", "span")
 

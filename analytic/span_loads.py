@@ -229,7 +229,7 @@ class LoadTable(SpanLoad):
     @property
     def stations(self) -> tuple[float, ...]:  # type: ignore[override]
         """The points of the span."""
-        return self.x  # type: ignore[return-value]
+        return tuple(self.x)
 
     def phase_at(self, t: FloatArray) -> FloatArray:
         """Return the time itself, or νt without instants."""
@@ -245,7 +245,7 @@ class LoadTable(SpanLoad):
         if self.time is None:
             values = self._wave(phase) * self._over_time
         else:
-            values = self._over_time(np.clip(phase, self.time[0], self.time[-1]))  # type: ignore[index]
+            values = self._over_time(np.clip(phase, self.time[0], self.time[-1]))
         at = np.array(self.x)
         onto = np.stack([np.interp(x, at, one) for one in np.eye(at.size)])
         return np.asarray(np.einsum("snk,nx->sxk", values, onto))

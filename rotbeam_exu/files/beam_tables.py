@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple, get_args, get_origin, get_type_hints
 
 from numpy.typing import ArrayLike
 
-from analytic import Beam, Blade, Damping, PointMass, Section, Theory
+from analytic import Beam, Blade, Damping, LoadTable, PointMass, Section, Theory
 from analytic.description import Described, kinds_of
 from analytic.loads import Load
 from analytic.parts import Line
@@ -147,6 +147,12 @@ def _schema_of(told: object) -> dict[str, object]:
     if isinstance(told, type) and issubclass(told, Described):
         kinds = kinds_of(told)
         parts = [table_of(told)] if told.__name__ in kinds else map(_with_kind, kinds.values())
+        if told is Load:
+            keys = table_of(LoadTable)
+            among = {
+                k: of for k, of in keys.optional.items() if k not in ("force", "moment", "time")
+            }
+            parts = [*parts, Table({"kind": Literal["LoadTable"], "file": str}, among)]
     several: list[dict[str, object]] = [
         _schema_of(one) for one in parts if one not in (NoneType, Ellipsis)
     ]

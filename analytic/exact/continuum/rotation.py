@@ -113,8 +113,8 @@ def require_section(blade: Blade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
     if not blade.section.knows_space:
         raise ValueError(
-            "twist, precone, prebend, sweep, offsets, a setting angle, a kick, tilted gravity, a "
-            "moment or a load that is out of the plane or follows sections bend a blade out of its "
+            "twist, precone, prebend, sweep, offsets, a setting angle, tilted gravity, moments, "
+            "loads that follow sections or leave the plane, or a kick bend a blade out of its "
             "plane and twist it: give its stiffness there by "
             "blade.with_section_out_of_plane(bending_ratio, torsion_ratio), math.inf for a section "
             "that does not twist"

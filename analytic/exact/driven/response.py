@@ -235,6 +235,8 @@ def spin_up_response(
             tight /= _FINER
         if coarser is not None:
             size = float(np.abs(finer.tip[:, 1:]).max())
+            if not spin_up.ramp_time:  # a blade at rest in its frame deflects by round-off
+                size = max(size, _ROUND_OFF / tolerance)
             changes = finer.tip - coarser.tip, finer.twist - coarser.twist
             error = max(float(np.abs(change).max()) for change in changes) / (size or 1.0)
             if error <= tolerance:

@@ -39,7 +39,7 @@ def checked_start(blade: Blade, start: object, kick: float, bent: float) -> tupl
         )
     if start != "straight":
         raise ValueError(
-            f"kick and bent are of a blade that starts straight, got start = {start!r}: leave it out"
+            f"kick and bent are of a blade that starts straight, got {start!r}: leave start out"
         )
     return kick, bent
 

@@ -18,10 +18,10 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
+from analytic.exact.continuum.loading import pushes, unit_load
 from analytic.exact.continuum.planar_rotation import blade_continuum
 from analytic.exact.continuum.rotation import SteadyBlade
 from analytic.exact.continuum.state import Driven
-from analytic.exact.continuum.loading import pushes, unit_load
 from analytic.quadrature import gauss_points
 from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.runs.shape import shape_of
