@@ -208,7 +208,7 @@ def of_another_clamp(x):
     [
         ("loaded", "start must be 'straight', 'steady', or a function"),
         (None, "start must be 'straight'"),
-        (of_another_clamp, "is 1.0e-01 of the length, or rad, off the nearest one"),
+        (of_another_clamp, "of the length, or rad, off the nearest one"),
     ],
 )
 def test_what_is_no_start_is_refused(start, sentence):
