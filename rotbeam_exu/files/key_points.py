@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
-from scipy.interpolate import CubicSpline
 
 from analytic import Blade, Section
 from analytic.arrays import FloatArray, stations
 from analytic.exact.continuum.unit import space_unit
+from analytic.lazily import integrate, interpolate
 from analytic.parts import STRAIGHT, Line
 from analytic.section import OutOfPlane
 
@@ -60,7 +59,7 @@ def line_through(points: FloatArray, angles: FloatArray) -> tuple[float, Line]:
                 line, twist=_sparse(at, twist), prebend=_sparse(at, bows[:, 0]),
                 sweep=_sparse(at, bows[:, 1]),
             )  # fmt: skip
-        spline = CubicSpline(at, missed, bc_type=((1, np.zeros(3)), "not-a-knot"))
+        spline = interpolate.CubicSpline(at, missed, bc_type=((1, np.zeros(3)), "not-a-knot"))
         # Turning φ of the line moves it by φ × t a length: φ = t × m', of which κ is the slope.
         t = axes[:, :, 0]
         slope = bows[:, 1:] * axes[:, :, 1] - bows[:, :1] * axes[:, :, 2]
@@ -70,7 +69,7 @@ def line_through(points: FloatArray, angles: FloatArray) -> tuple[float, Line]:
         share = (at[-1] - at[-3]) / (at[-2] - at[-3])
         bows[-1] = bows[-3] + share * (bows[-2] - bows[-3])
         twist = twist + turn
-        beyond = cumulative_trapezoid(np.sum(missed * slope, axis=1), at, initial=0)
+        beyond = integrate.cumulative_trapezoid(np.sum(missed * slope, axis=1), at, initial=0)
         at = at + np.sum(missed * t, axis=1) - beyond
         if not np.all(np.diff(at) > 0.0):
             break

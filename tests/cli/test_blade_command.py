@@ -79,7 +79,7 @@ def test_a_blade_of_profiles_has_no_other_interpolation(call, tmp_path):
     assert "[%]" not in out
 
 
-def test_frequencies_that_do_not_settle_are_dashes(call, tmp_path):
+def test_what_the_other_interpolation_makes_of_large_jumps(call, tmp_path):
     """Matrices linear about the line, of centers that jump by 3 % of the length."""
     x = np.linspace(0.0, 1.0, 9)
     tables = {
@@ -92,8 +92,7 @@ def test_frequencies_that_do_not_settle_are_dashes(call, tmp_path):
     (tmp_path / "blade.toml").write_text(f"[blade.stations]\n{lines}")
     code, out, _ = call("blade", "--config", tmp_path / "blade.toml")
     assert code == 0
-    assert rows(out)["flap 1"][2] == "-"
-    assert "did not settle" in out
+    assert float(rows(out)["flap 1"][2]) > 50.0
 
 
 def test_it_writes_a_blade_and_reads_it_again(call, file, tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -16,23 +17,26 @@ from ...blade import Blade
 from ...blade_checks import warn_if_rpm
 from ...input_checks import points_of_beam, positive, times_from_rest
 from ...loads import Load, loads_in_time, rippled
-from ...motion import SpeedChange, SteadyRotation, require_ramp
-from ...settled import KNOWN
+from ...motion import SpeedChange, SteadyRotation
+from ...settled import KNOWN, settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ...warning import warn
-from ..continuum.rotation import continuum_of, rotating_blade
+from ..continuum.rotation import SteadyBlade, continuum_of, finer_blades, rotating_blade
 from ..continuum.state import BladeState, SectionLoads, in_newtons, state_of
 from .start import Start, checked_start, started
-from .transient import drive, grid_of, integrated
+from .transient import BladeMotion, drive, grid_of, integrated
 
+_TOLERANCE = 1e-8
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
 _MANY_CELLS = 16
+_MODES = 3  # by which functions of a table are chosen
 _STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
 _SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
-_WITHIN, _FINER = 0.3, 30.0  # of the tolerance in space, for the first steps, and the next over it
+_WITHIN = 0.2  # of the tolerance in space, for the first steps
+_FINER, _AGAIN = 20.0, 3.0  # times smaller for the second, and for each after it
 _TAIL = 5.0  # of it, for the last coordinates of what is resolved
 _FINEST = 1e-11  # the least tolerance that round-off leaves in reach
 _ROUND_OFF = 1e-13  # of the tip's position over the length
@@ -134,7 +138,7 @@ def spin_up_response(
     spin_up: SpeedChange | SteadyRotation,
     times: float | ArrayLike,
     *,
-    tolerance: float = 1e-8,
+    tolerance: float | None = None,
     theory: Theory = BERNOULLI_EULER,
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
@@ -155,9 +159,9 @@ def spin_up_response(
         Before it the beam turns at its speed at t = 0.
     times : array_like
         Times of the response [s], ascending, not before 0.
-    tolerance : float
-        Largest error of the tip's position over the largest |q|; rates in space are known to ten
-        times that of the largest.
+    tolerance : float, optional
+        Largest error of the tip's position over the largest |q|; by default 1e-8, of a blade from
+        stations 1e-6. Rates in space are known to ten times that of the largest.
     theory : Theory
         Extension, shear and rotary inertia.
     points : array_like
@@ -192,60 +196,54 @@ def spin_up_response(
     >>> print(found.q.round(4))
     [-2.0782 -3.9266  1.442 ]
     """
-    time, tolerance = _checked(times, tolerance)
-    if not isinstance(spin_up, SteadyRotation):
-        require_ramp(spin_up)
-    highest = spin_up.fastest
-    warn_if_rpm(blade, highest)
+    time = times_from_rest(times)
+    kick, bent = checked_start(blade, spin_up, start, kick, bent)
+    warn_if_rpm(blade, spin_up.fastest)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
     along = points_of_beam("points", points, blade.length)
+    at_fastest = partial(_at_fastest, blade, spin_up, theory, loads, leaves=bool(kick or bent))
+    steady = at_fastest(math.ceil(_A_DIGIT * _DIGITS[0]))
+    controlled, by_answers = steady.model.has_dear_tangent, steady.model.answers
+    tolerance = _checked(tolerance, max(_TOLERANCE, steady.model.tolerance))
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
-    kick, bent = checked_start(blade, start, kick, bent)
-    coarser, error, size = None, math.inf, 0.0
     functions = math.ceil(_A_DIGIT * digits)
-    table = blade.unit.cells.size > _MANY_CELLS
     # The kinks of a table leave an algebraic tail.
-    more = functions // 2 if table else _MORE_FUNCTIONS
-    tight = _WITHIN * tolerance
+    table = blade.unit.cells.size > _MANY_CELLS
+    more = max(functions // 2 if table else _MORE_FUNCTIONS, steady.model.blade.panel_count)
+    steady = _settled(steady, tolerance) if by_answers else at_fastest(functions)
+    coarser, error, size = None, math.inf, 0.0
+    within = _WITHIN * tolerance if controlled else None
     for level in range(_REFINEMENTS):
-        model: Any = continuum_of(
-            blade, theory, functions, functions, axial=functions // 2, loads=loads,
-            leaves=bool(kick or bent),
-        )  # fmt: skip
-        more = max(more, model.blade.panel_count)
-        within = tight if model.has_dear_tangent else None
-        rotating_blade(blade, highest, model)  # refuses a speed that tears the blade
-        grid = _grid(blade, spin_up, float(time[-1]), digits, None if within else level)
+        if level:
+            steady = steady.refined() if by_answers else at_fastest(functions)
+        model = steady.model
         q, q_dot = started(blade, model, spin_up.start, start, loads, kick, bent)
-        if callable(start) and within and not (level or table):
+        if callable(start) and controlled and not (level or table or by_answers):
             # Functions that do not resolve the start swing about it in waves of their own.
-            functions = max(model.needed(q[None], tolerance), functions + more)
+            functions = max(model.needed(q[None], tolerance), model.bending + more)
             continue
+        grid = _grid(blade, spin_up, float(time[-1]), digits, None if controlled else level)
         finer = integrated(blade, rotation, loads, model, grid, time, along, q, q_dot, within)
-        functions += more
+        functions = model.bending + more
         if finer is None:
             coarser = None
             continue
         if within is not None:
-            needed = model.needed(finer.state[0], _TAIL * tolerance)
-            if not (level or table) and needed > functions - more:
-                functions = needed
-                continue
-            tight /= _FINER
+            if not (level or table or by_answers):
+                needed = model.needed(finer.state[0], _TAIL * tolerance)
+                if needed > model.bending:
+                    functions = needed
+                    continue
+            within /= _FINER if coarser is None else _AGAIN
         if coarser is not None:
-            size = float(np.abs(finer.tip[:, 1:]).max())
-            if not spin_up.ramp_time:  # a blade at rest in its frame deflects by round-off
-                size = max(size, _ROUND_OFF / tolerance)
-            changes = finer.tip - coarser.tip, finer.twist - coarser.twist
-            error = max(float(np.abs(change).max()) for change in changes) / (size or 1.0)
+            # At constant speed a blade at rest in its frame deflects by round-off.
+            error, size = _change(coarser, finer, (not spin_up.ramp_time) * _ROUND_OFF / tolerance)
             if error <= tolerance:
                 break
         coarser = finer
     else:
-        sentence = (
-            f"the response does not settle to {tolerance:g}: {_what_to_try(error, size, time[-1])}"
-        )
+        sentence = _what_to_try(tolerance, error, size, time[-1])
         if finer is None or not error <= KNOWN:
             raise RuntimeError(sentence)
         warn(sentence)
@@ -264,35 +262,74 @@ def spin_up_response(
         twist=finer.twist,
         error=error,
         steps=finer.steps,
-        functions=functions - more,
+        functions=model.bending,
         _model=model,
         _state=finer.state,
     )
 
 
-def _checked(times: float | ArrayLike, tolerance: float) -> tuple[FloatArray, float]:
-    time = times_from_rest(times)
-    tolerance = positive("tolerance", tolerance)
-    if tolerance < _FINEST:
+def _at_fastest(
+    blade: Blade,
+    spin_up: SpeedChange | SteadyRotation,
+    theory: Theory,
+    loads: Sequence[Load],
+    functions: int,
+    *,
+    leaves: bool,
+) -> SteadyBlade:
+    """Return the blade at its fastest, on so many functions; refuse a speed that tears it."""
+    model = continuum_of(
+        blade, theory, functions, functions, axial=functions // 2, loads=loads, leaves=leaves
+    )
+    return rotating_blade(blade, spin_up.fastest, model)
+
+
+def _checked(tolerance: float | None, default: float) -> float:
+    if tolerance is None:
+        return default
+    if positive("tolerance", tolerance) < _FINEST:
         raise ValueError(
             f"tolerance must be at least {_FINEST:g}, which round-off allows, got {tolerance:g}"
         )
-    return time, tolerance
+    return float(tolerance)
 
 
-def _what_to_try(error: float, size: float, end: float) -> str:
-    """Return the end of the sentence on two solutions that differ by `error` times `size`."""
+def _settled(steady: SteadyBlade, tolerance: float) -> SteadyBlade:
+    """Return a blade on functions by which its lowest modes and its steady state settle."""
+    found, *_ = settled(
+        lambda one: one, finer_blades(steady), tolerance, _numbers, "", "", left=math.inf
+    )
+    return found
+
+
+def _numbers(steady: SteadyBlade) -> FloatArray:
+    """Return logarithms of the lowest frequencies, and the tip's place and turn."""
+    turn = steady.model.tip_turn(steady.equilibrium[None])
+    return np.concatenate((np.log(steady.vibration[0][:_MODES]), steady.tip, turn))
+
+
+def _change(coarser: BladeMotion, finer: BladeMotion, least: float) -> tuple[float, float]:
+    """Return the largest change of the tip's place and twist over the largest |q|, and that."""
+    size = max(float(np.abs(finer.tip[:, 1:]).max()), least)
+    changes = finer.tip - coarser.tip, finer.twist - coarser.twist
+    return max(float(np.abs(change).max()) for change in changes) / (size or 1.0), size
+
+
+def _what_to_try(tolerance: float, error: float, size: float, end: float) -> str:
+    """Return a sentence on two solutions that differ by `error` times `size`."""
     if math.isinf(error):
-        return f"Newton's method fails before t = {end:g} s; take a longer ramp"
-    if error * size < _ROUND_OFF:
-        return (
+        why = f"Newton's method fails before t = {end:g} s; take a longer ramp"
+    elif error * size < _ROUND_OFF:
+        why = (
             f"until t = {end:g} s the beam deflects by {size:.1e} of its length only, which "
             f"round-off drowns; ask for later times as well"
         )
-    return (
-        f"the finest two solutions differ by {error:.1e} of the largest deflection; take "
-        f"tolerance={10.0 * error:.0e} or a longer ramp"
-    )
+    else:
+        why = (
+            f"the finest two solutions differ by {error:.1e} of the largest deflection; take "
+            f"tolerance={10.0 * error:.0e} or a longer ramp"
+        )
+    return f"the response does not settle to {tolerance:g}: {why}"
 
 
 def _grid(

@@ -11,6 +11,7 @@ from ...arrays import FloatArray
 from ...blade import Blade
 from ...input_checks import finite_number
 from ...loads import Load
+from ...motion import SteadyRotation, require_ramp
 from ..continuum.loading import unit_load
 from ..continuum.rotation import require_bent, rotating_blade
 from ..continuum.state import BladeState
@@ -22,8 +23,12 @@ _CHANGES, _EXACT = 20, 1e-13  # of Newton's method
 _OFF = 1e-3  # place over the length and angle, from which on a state is none of the blade
 
 
-def checked_start(blade: Blade, start: object, kick: float, bent: float) -> tuple[float, float]:
-    """Return the checked kick and bent; refuse a start that is neither a name nor a function."""
+def checked_start(
+    blade: Blade, spin_up: object, start: object, kick: float, bent: float
+) -> tuple[float, float]:
+    """Return the checked kick and bent; refuse a motion and a start that are none."""
+    if not isinstance(spin_up, SteadyRotation):
+        require_ramp(spin_up)
     if start not in ("straight", "steady") and not callable(start):
         raise ValueError(
             "start must be 'straight', 'steady', or a function that returns the BladeState at "

@@ -5,7 +5,15 @@ import warnings
 import numpy as np
 import pytest
 
-from analytic import Blade, RotbeamWarning, Theory, linear_modes, steady_state
+from analytic import (
+    Blade,
+    RotbeamWarning,
+    SpinUp,
+    Theory,
+    linear_modes,
+    spin_up_response,
+    steady_state,
+)
 from analytic.exact.continuum.unit import StationUnit
 
 SIGMAS = (0.001, 0.005, 0.03)  # of the centers, over the length
@@ -58,6 +66,18 @@ def test_errors_are_not_larger_than_told(sigma, theory, by_panels):
     assert np.abs(modes.frequencies / known.frequencies - 1.0).max() < modes.error + known.error
     there = steady_state(blade, 4.0, force=(0.0, 0.02, 0.05), theory=theory, tolerance=1e-8)
     assert np.abs(state.tip - there.tip).max() < state.error + there.error
+
+
+@pytest.mark.slow
+def test_the_error_of_a_spin_up_is_not_larger_than_told(by_panels):
+    blade, motion, times = table(3, 0.03, 6), SpinUp(omega=3.0, ramp_time=2.0), [1.0, 2.0]
+    found = spin_up_response(blade, motion, times, tolerance=1e-3)
+    by_panels()
+    known = spin_up_response(blade, motion, times, tolerance=1e-4)
+    assert known._model.blade.panel_count == 5
+    size = np.abs(known.tip[:, 1:]).max()
+    for one, other in ((found.tip, known.tip), (found.twist, known.twist)):
+        assert np.abs(one - other).max() < (found.error + known.error) * size
 
 
 def test_fifty_stations_with_steps_of_three():
