@@ -32,15 +32,15 @@ TEXTS = [*(p.read_text("utf-8") for p in FILES), *BLOCKS, GOOD, WHOLE, DAMPED, S
          STATIONS, SHAPES, f"{BLADE_TOML}[blade.damping]\nratio = 0.02\n", RUN, LOADS]  # fmt: skip
 
 
-def fits(value, told):
+def fits(value, told):  # noqa: PLR0911
     """Whether a value is as a schema says: as much of JSON schema as ours has."""
     if "anyOf" in told:
         return any(fits(value, one) for one in told["anyOf"])
     if "enum" in told:
         return value in told["enum"]
     kinds = [told["type"]] if isinstance(told["type"], str) else told["type"]
-    if isinstance(value, bool):
-        return "boolean" in kinds
+    if "boolean" in kinds or isinstance(value, bool):
+        return "boolean" in kinds and isinstance(value, bool)
     if not any(isinstance(value, TYPES[kind]) for kind in kinds):
         return False
     if isinstance(value, dict):
