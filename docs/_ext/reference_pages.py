@@ -37,6 +37,8 @@ def page(name: str) -> str:
     value, (module, _, short) = pkgutil.resolve_name(name), name.rpartition(".")
     kind = {"func": "function", "exc": "exception"}.get(role_of(name), role_of(name))
     lines = [f".. currentmodule:: {module}", f".. auto{kind}:: {short}"]
+    if name in ("analytic.Beam", "analytic.Blade"):  # whose data stand in a base of their own
+        lines.append("   :inherited-members:")
     text = DATA.get(name, "")
     if getattr(value, "__name__", short) != short:
         text = f"Another name of :func:`{module}.{value.__name__}`."

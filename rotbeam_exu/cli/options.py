@@ -139,7 +139,8 @@ def _load(kind: Any) -> Any:
     if not _has_default(kind):
         return _option(Number, f"{about}.")
     text = f"{about}, {size.default:g} unless given."
-    return _option(bool | float, text, negative=(), show_default=False, metavar="[FLOAT]")
+    more: Any = {"negative": (), "show_default": False, "metavar": "[FLOAT]"}
+    return Annotated[bool | float, Parameter(help=text, **more)]  # None is no size
 
 
 OPTIONS = {
