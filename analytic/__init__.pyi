@@ -14,6 +14,8 @@ from .exact.linear.modes import linear_modes as linear_modes
 from .exact.linear.steady_state import steady_state as steady_state
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity
+from .loads import LoadTable as LoadTable
+from .loads import PointLoad as PointLoad
 from .loads import SpeedRipple as SpeedRipple
 from .loads import TipForce as TipForce
 from .motion import SpinUp as SpinUp

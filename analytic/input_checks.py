@@ -223,6 +223,16 @@ def finite_values(name: str, values: object, unit: str = "") -> FloatArray:
     return array
 
 
+def three_numbers(name: str, values: object, unit: str = "") -> tuple[float, ...]:
+    """Return the three components of a vector."""
+    found = finite_array(name, values, unit)
+    if found.shape != (3,):
+        raise ValueError(
+            f"{name} must be three numbers{_in(unit)}, got {shown(values)}: as (0.0, 0.0, 1.0)"
+        )
+    return tuple(found.tolist())
+
+
 def along(name: str, values: object, count: int, unit: str) -> FloatArray:
     """Return a number at each of so many stations, from these or from one for all, (stations,)."""
     array = finite_array(name, values, unit)

@@ -81,6 +81,12 @@ class SteadyRotation(Motion):
         self._keep(omega=rotation_speed(self.omega))
 
     ramp_time = 0.0
+    shortest_wave = math.inf
+
+    @property
+    def start(self) -> float:
+        """Speed before t = 0, ω [rad/s]."""
+        return self.omega
 
     @property
     def fastest(self) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -147,7 +148,7 @@ class Line(Described):
         for name in ("mass_offset", "tension_offset"):
             require_offset(name, getattr(self, name), length)
 
-    @property
+    @cached_property
     def is_straight(self) -> bool:
         """Whether it is straight and flat, twisted at most by the same angle all along."""
         line = self.in_units(1.0)

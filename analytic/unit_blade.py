@@ -34,6 +34,7 @@ class UnitBlade:
     rotary: Profile = 0.0  # inertia against rotation over m0 L²
     shear: Profile | None = None  # over the root's GA; as the axial stiffness if None
     cuts: tuple[float, ...] = ()  # where slices change besides, out of the plane or in shear
+    loaded: tuple[float, ...] = ()  # where loads on the span begin, end or act on a point
     # η_b and η_a times f and d/(m0 f), with f = √(EI/(m0 L⁴)).
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
@@ -44,8 +45,9 @@ class UnitBlade:
 
     @cached_property
     def panels(self) -> FloatArray:
-        """Ends of the panels between point masses, at which forces jump, 0 to 1."""
-        return _some(apart(position for position, _, _ in self.masses), _MOST_PANELS)
+        """Ends of the panels between point masses and loads, at which forces jump, 0 to 1."""
+        jumps = (*(position for position, _, _ in self.masses), *self.loaded)
+        return _some(apart(jumps), _MOST_PANELS)
 
     @property
     def profiles(self) -> tuple[Profile, ...]:

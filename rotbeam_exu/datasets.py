@@ -32,6 +32,7 @@ from .runs.attributes import (
     blade_attributes,
     loads_attributes,
     motion_attributes,
+    start_attributes,
     theory_attributes,
     versions,
 )
@@ -161,6 +162,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
         {
             **_inputs(response),
             **loads_attributes(response.loads),
+            **start_attributes(response.start),
             **theory_attributes(response.theory),
             "duration": float(response.time[-1]),
             "samples": response.time.size,

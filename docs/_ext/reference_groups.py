@@ -32,7 +32,7 @@ GROUPS = (
         "Motion and loads",
         "The motion of the clamp, and the loads.",
         analytic="SpinUp FourierRamp SpeedTable SteadyRotation Gravity TipForce DistributedForce "
-        "SpeedRipple",
+        "PointLoad LoadTable SpeedRipple",
     ),
     _group(
         "Linear vibration",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from cyclopts import Parameter
@@ -12,6 +12,7 @@ from analytic.input_checks import positive, whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
+from ..runs.attributes import loads_attributes, start_attributes
 from ..runs.check import energy_drift
 from .job import Flag, Results
 from .options import NoFigure, Number, Whole
@@ -138,21 +139,24 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, assessment: Asse
     print_line("verdict", assessment.sentence)
 
 
-@uses("speed", "ramp_time", "duration", "theory")
+@uses("speed", "ramp_time", "duration", "theory", "loads")
 def reference(
     request: Request,
     *,
+    start: Literal["straight", "steady"] = "straight",
     samples: Whole = 1501,
     tolerance: Number = 1e-8,
     results: Results = Results(),
 ) -> None:
     """Write the exact spin-up as netCDF and CSV.
 
-    The beam is geometrically exact, extensible unless its theory says otherwise, and without loads;
-    step and functions are refined until two solutions agree.
+    The beam is geometrically exact, extensible unless its theory says otherwise; step and functions
+    are refined until two solutions agree.
 
     Parameters
     ----------
+    start
+        Straight, or in the steady state under the loads as they are at t = 0.
     samples
         Number of times that are written, evenly spaced from 0.
     tolerance
@@ -168,15 +172,17 @@ def reference(
     spin_up = motion.spin_up
     inputs = request.inputs(
         omega=spin_up.omega, ramp_time=spin_up.ramp_time, duration=motion.duration,
-        samples=samples, tolerance=tolerance,
+        samples=samples, tolerance=tolerance, **loads_attributes(request.loads),
+        **start_attributes(start),
     )  # fmt: skip
     times = np.linspace(0.0, motion.duration, samples)
 
     def computed() -> SpinUpResponse:
         with bar("integrating"):
             return analytic.spin_up_response(
-                request.blade, spin_up, times, tolerance=tolerance, theory=request.theory
-            )
+                request.blade, spin_up, times, tolerance=tolerance, theory=request.theory,
+                loads=request.loads, start=start,
+            )  # fmt: skip
 
     name = f"exact-omega-{spin_up.omega:g}-ramp-{spin_up.ramp_time:g}"
     results.job(name, inputs, computed, _print_reference)

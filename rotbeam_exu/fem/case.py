@@ -63,6 +63,13 @@ class RunCase:
                 f"element {self.model.name!r} stays in the plane of rotation, out of which a load "
                 "moves the blade: take element='space_exact'"
             )
+        for load in self.loads:
+            if load.acts_on == "span":
+                raise ValueError(
+                    f"Exudyn's elements take loads on all mass, on the length and across the tip, "
+                    f"and {load} acts on the span: take analytic.spin_up_response, or on the "
+                    "command line rotbeam reference"
+                )
         if self.frame == "rotating" and not self.model.constant_mass:
             raise ValueError(
                 f"element {self.model.name!r} is solved in the inertial frame, its inertia being "

@@ -20,6 +20,7 @@ from analytic.section_shapes import SectionShape
 
 from .beam_tables import BEAM, NUMERICS, require_keys
 from .blade_files import blade_by, blade_of_file, reader_of
+from .load_file import load_of
 from .stations_file import text_of
 
 _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
@@ -85,8 +86,8 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
 
     [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
     duration [s] and frame; [theory] the arguments of a `Theory`; each [[loads]] the kind of a load
-    and its fields. A file with one of these may do without a beam, unless it `needs_beam`. Errors
-    are those of `load_beam`.
+    and its fields, of a LoadTable also the name of a CSV `file`, as `load_table` reads. A file with
+    one of these may do without a beam, unless it `needs_beam`. Errors are those of `load_beam`.
     """
     source = Path(path)
     if reader := reader_of(source):
@@ -111,7 +112,7 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
         }
         theory = document.get("theory", {})
         Theory(**theory)
-        loads = [from_description(one, Load) for one in document.get("loads", [])]
+        loads = [load_of(one, source.parent) for one in document.get("loads", [])]
     except (OverflowError, TypeError, ValueError) as error:
         raise ValueError(f"{source}: {error}") from error
     return RunFile(blade=blade, loads=loads, theory=theory, **run)

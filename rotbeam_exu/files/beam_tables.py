@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple, get_args, get_origin, get_type_hints
 
 from numpy.typing import ArrayLike
 
-from analytic import Beam, Blade, Damping, PointMass, Section, Theory
+from analytic import Beam, Blade, Damping, LoadTable, PointMass, Section, Theory
 from analytic.description import Described, kinds_of
 from analytic.loads import Load
 from analytic.parts import Line
@@ -153,6 +153,12 @@ def _schema_of(content: object) -> dict[str, object]:
         parts = (
             [table_of(content)] if content.__name__ in kinds else map(_with_kind, kinds.values())
         )
+        if content is Load:
+            keys = table_of(LoadTable)
+            among = {
+                k: of for k, of in keys.optional.items() if k not in ("force", "moment", "time")
+            }
+            parts = [*parts, Table({"kind": Literal["LoadTable"], "file": str}, among)]
     several: list[dict[str, object]] = [
         _schema_of(one) for one in parts if one not in (NoneType, Ellipsis)
     ]

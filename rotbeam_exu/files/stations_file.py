@@ -6,7 +6,7 @@ import csv
 import io
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,9 @@ _UNITS = {
     **{f"{name}{axis}": "m" for name in _CENTERS for axis in (2, 3)},
 }  # fmt: skip
 _FACTORS = {
+    "s": {"s": 1.0, "ms": 1e-3},
+    "N/m": {"N/m": 1.0, "kN/m": 1e3, "N/mm": 1e3},
+    "N m/m": {"N m/m": 1.0, "N": 1.0, "kN m/m": 1e3, "kN": 1e3},
     "rad": {"rad": 1.0, "deg": math.pi / 180.0},
     "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254, "ft": 0.3048},
     "N": {"N": 1.0, "kN": 1e3, "MN": 1e6, "GN": 1e9},
@@ -53,7 +56,7 @@ def blade_of_csv(path: Path) -> Blade:
     """
     if not path.is_file():
         raise FileNotFoundError(f"there is no file {path}")
-    columns = _columns(path)
+    columns = columns_of(path, _UNITS, "x [m],EA [N],EI [N m^2],m [kg/m]")
     planar = "EI" in columns
     needed = ("x", "EA", "EI", "m") if planar else ("x", "EA", "GJ", "EI2", "EI3", "m")
     if missing := [name for name in needed if name not in columns]:
@@ -99,15 +102,18 @@ def text_of(path: Path) -> str:
         ) from None
 
 
-def _columns(path: Path) -> dict[str, FloatArray]:
-    """Return the columns of a CSV in SI by name; refuse what is no table of numbers."""
+def columns_of(path: Path, units: Mapping[str, str], example: str) -> dict[str, FloatArray]:
+    """Return the columns of a CSV in SI by name; refuse what is no table of numbers.
+
+    Names have their `units`; the sentence on a file without a header has an `example` of one.
+    """
     reader = csv.reader(io.StringIO(text_of(path), newline=""))
     try:
         lines = [(reader.line_num, row) for row in reader if any(row)]
     except csv.Error as error:
         raise ValueError(f"{path}: line {reader.line_num} is no row of a table: {error}") from None
     (_, header), *rows = lines or [(1, [])]
-    factors = _factors(header, path)
+    factors = _factors(header, path, units, example)
     if not rows:
         raise ValueError(f"{path} has a header and no stations: give a row at each of them")
     for number, row in rows:
@@ -122,7 +128,9 @@ def _columns(path: Path) -> dict[str, FloatArray]:
     }
 
 
-def _factors(header: Iterable[str], path: Path) -> dict[str, float]:
+def _factors(
+    header: Iterable[str], path: Path, units: Mapping[str, str], example: str
+) -> dict[str, float]:
     """Return the names of columns and their units in SI."""
     titles = [(_TITLE.fullmatch(title), title.strip()) for title in header]
     named = [
@@ -134,22 +142,22 @@ def _factors(header: Iterable[str], path: Path) -> dict[str, float]:
             f"{path} has columns of ElastoDyn: name them as here, where {pairs}, and give EA [N] "
             "and GJ [N m^2]; or name ElastoDyn's file itself in [blade.stations]"
         )
-    if not any(name in _UNITS for name, *_ in named):  # of another file, of which nothing is shown
+    if not any(name in units for name, *_ in named):  # of another file, of which nothing is shown
         raise ValueError(
-            f"{path} begins with no title of a known column: give it a header, as x [m],EA [N],"
-            "EI [N m^2],m [kg/m], separated by commas"
+            f"{path} begins with no title of a known column: give it a header, as {example}, "
+            "separated by commas"
         )
     factors: dict[str, float] = {}
     for name, written, title in named:
-        if name not in _UNITS:
-            raise ValueError(f"{path}: unknown column {shown(name)}; known are {', '.join(_UNITS)}")
+        if name not in units:
+            raise ValueError(f"{path}: unknown column {shown(name)}; known are {', '.join(units)}")
         if name in factors:
             raise ValueError(f"{path} has two columns {name}: keep one")
-        by_unit = _FACTORS[_UNITS[name]]
+        by_unit = _FACTORS[units[name]]
         unit = " ".join(written.replace("²", "^2").replace("*", " ").split())
         if unit not in by_unit:
             raise ValueError(
-                f"{path}: give the unit of column {shown(title)}, as {name} [{_UNITS[name]}]; "
+                f"{path}: give the unit of column {shown(title)}, as {name} [{units[name]}]; "
                 f"known are {', '.join(by_unit)}"
             )
         factors[name] = by_unit[unit]

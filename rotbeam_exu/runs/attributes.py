@@ -47,6 +47,11 @@ def loads_attributes(loads: Sequence[Load]) -> dict[str, object]:
     return {"loads": json.dumps(list(map(describe, loads)))} if loads else {}
 
 
+def start_attributes(start: object) -> dict[str, object]:
+    """Return the attribute by which a motion says its start: "steady", or "given"; else none."""
+    return {} if start == "straight" else {"start": start if start == "steady" else "given"}
+
+
 def theory_attributes(theory: Theory) -> dict[str, object]:
     """Return the attributes by which an answer says where its theory is not Bernoulli and Euler's.
 

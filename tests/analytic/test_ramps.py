@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from analytic import (
-    Beam,
     FourierRamp,
     Gravity,
     SpeedTable,
@@ -208,8 +207,3 @@ def test_gravity_on_a_blade_that_turns_already(beam):
     t = 0.01
     q = spin_up_response(beam, ramp, [t], tolerance=1e-4, loads=(Gravity(9.81),)).q[0]
     assert q == pytest.approx(-0.5 * 9.81 * t**2, rel=2e-2)  # bending waves are 0.1 L long by then
-
-
-def test_steady_rotation_is_no_ramp(beam):
-    with pytest.raises(TypeError, match="take periodic_orbits"):
-        spin_up_response(Beam.reference(), SteadyRotation(omega=1.0), [1.0])

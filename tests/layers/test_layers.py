@@ -18,6 +18,7 @@ LAYERS = {
         {"arrays", "description", "lazily", "letters", "threads", "warning"},
         {"input_checks", "quadrature", "methods", "plotting"},
         {"motion", "settled", "theory"},
+        {"load"}, {"span_loads"},
         {"parts", "section", "unit_blade", "loads", "ramps"},
         {"shape_functions", "section_shape", "station_section"},
         {"blade_data"},

@@ -195,6 +195,17 @@ class Changes:
             work += (along * self._K[0]) @ strains.K[0]
         return work
 
+    def following(self, integral: Callable[[FloatArray], FloatArray], acting: FloatArray) -> Any:
+        """Return the change to q of the work of a load that turns with the sections it acts on.
+
+        As (samples, n, n), from force and moment (3, 2, samples, places), and the integral up to
+        these places.
+        """
+        place, turn = integral(self.slope), integral(self.bend)
+        force, moment = np.moveaxis(acting[..., None, :], 1, 0)
+        work = _contracted(place, cross(turn, force))
+        return work + _contracted(turn, cross(turn, moment))
+
 
 def _contracted(left: FloatArray, right: FloatArray) -> FloatArray:
     """Return Σ left_k · right_l over points: (samples, n, n) of (3, samples, n, points)."""

@@ -18,11 +18,14 @@ _NEAR = 1e-3  # change over the size of the state, from which on the tangent ser
 
 
 class Equilibrium(NamedTuple):
-    """A discretization in steady rotation under a load."""
+    """A discretization in steady rotation under loads."""
 
     model: Any  # a `Model`
-    rate: float
-    push: FloatArray | None
+    by: Driven
+
+    @property
+    def _loaded(self) -> bool:
+        return self.by.push is not None or bool(self.by.follow)
 
     def followed(self, near: FloatArray | None) -> tuple[FloatArray, Tangent]:
         """Return coordinates (n,) and tangent of the state near these, or followed from rest.
@@ -36,7 +39,7 @@ class Equilibrium(NamedTuple):
         if state is not None:
             return state
         # A straight blade stays straight, and nothing is to be followed.
-        still = self.push is None and (self.rate == 0.0 or self.model.uncoupled)
+        still = not self._loaded and (self.by.rate == 0.0 or self.model.uncoupled)
         q, reached, step = np.zeros(self.model.size), float(still), 1.0
         for _ in range(_STEPS):
             share = min(reached + step, 1.0)
@@ -54,10 +57,10 @@ class Equilibrium(NamedTuple):
     def _lost(self, how: str, reached: float) -> str:
         """Return a sentence on the steady state that is followed up to shares of speed and load."""
         at, remedies = [], []
-        if self.rate:
-            at.append(f"w_bar = {reached * self.rate:.4g} of {self.rate:.4g}")
+        if self.by.rate:
+            at.append(f"w_bar = {reached * self.by.rate:.4g} of {self.by.rate:.4g}")
             remedies.append("rotate slower")
-        if self.push is not None:
+        if self._loaded:
             at.append(f"{reached:.4g} of the load")
             remedies.append("load it less, and check its unit")
         return f"the steady state {how} at {' and '.join(at)}: {', or '.join(remedies)}"
@@ -69,11 +72,9 @@ class Equilibrium(NamedTuple):
         change be less than a quarter of the first, as it is where the theorem of Newton and
         Kantorovich holds (Deuflhard, Newton Methods for Nonlinear Problems, 2011).
         """
-        still, rate = np.zeros((1, self.model.size)), share * self.rate
-        push = None if self.push is None else share * self.push
-        turned = push is not None and push[2].any()
+        still, by = np.zeros((1, self.model.size)), self.by.share(share)
+        turned = bool(by.follow) or (by.push is not None and by.push.ndim > 2 and by.push[2].any())
         sizes: list[float] = []
-        by = Driven(rate, push=push)
         for _ in range(_CHANGES):
             near = self.model.has_dear_tangent and bool(sizes)
             near = near and sizes[-1] <= _NEAR * float(np.linalg.norm(q))
@@ -95,7 +96,7 @@ class Equilibrium(NamedTuple):
 
 
 def _positive(stiffness: FloatArray, *, symmetric: bool) -> bool:
-    """Whether a state is stable; a moment that keeps its direction has no potential."""
+    """Whether a state is stable; what follows, and a moment that does not, have no potential."""
     if not symmetric:
         return bool(np.linalg.eigvals(stiffness).real.min() > 0.0)
     try:

@@ -39,6 +39,7 @@ from ...methods.system import Tangent
 from ...theory import Theory
 from ...unit_blade import UNIFORM, UnitBlade
 from .planar_kinematics import Kinematics
+from .span import Span
 from .state import Driven
 
 MOST_FUNCTIONS = 256
@@ -112,7 +113,7 @@ class Continuum(Kinematics):
         self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
 
     def _fields(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> _Fields:
-        rate, rate_dot, push = by
+        rate, rate_dot, push, _ = by
         turn = np.exp(1j * self._angle(q))
         stretch = 1.0 + self._strain(q)
         stretch_rate = self._strain(q_dot)
@@ -243,6 +244,16 @@ class Continuum(Kinematics):
         """Return a force (samples,) beyond each Gauss point, times its weight; it lifts nothing."""
         del lift
         return np.asarray(np.multiply.outer(force, self.outboard[acts_on]))
+
+    def span(self, stations: tuple[float, ...]) -> Span:
+        """Return where a load on the span acts."""
+        return Span(self.grid, stations)
+
+    def push_on(self, span: Span, acting: FloatArray) -> ComplexArray:
+        """Return the same of the force (3, 2, samples, places) of a load on the span."""
+        along, lag, flap = acting[:, 0]
+        across = self.blade.setting * lag + math.sin(self.blade.angle) * flap
+        return span.beyond(along) + 1j * span.beyond(across)
 
     def tension(
         self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven

@@ -16,10 +16,12 @@ from ...unit_blade import UnitBlade
 from .planar import MOST_FUNCTIONS, Continuum, continuum
 
 
-def blade_continuum(blade: Blade, theory: Theory, bending: int, axial: int) -> Continuum:
+def blade_continuum(
+    blade: Blade, theory: Theory, bending: int, axial: int, loaded: tuple[float, ...] = ()
+) -> Continuum:
     """Return the discretization by at least so many functions, as many on every panel."""
     require_planar(blade)
-    unit = _unit(blade, require_theory(theory))
+    unit = replace(_unit(blade, require_theory(theory)), loaded=loaded)
     slenderness, axial = (blade.slenderness, axial) if theory.extension else (0.0, 1)
     bending, axial = (shape_functions(unit, count).count for count in (bending, axial))
     share = theory.shear
@@ -31,7 +33,12 @@ def blade_continuum(blade: Blade, theory: Theory, bending: int, axial: int) -> C
 
 
 def resolved_model(
-    blade: Blade, mode: int, theory: Theory, functions: int, axial: int | None = None
+    blade: Blade,
+    mode: int,
+    theory: Theory,
+    functions: int,
+    axial: int | None = None,
+    loaded: tuple[float, ...] = (),
 ) -> Continuum:
     """Return the discretization, refusing a mode that it does not resolve."""
     functions = whole_number("functions", functions, least=4)
@@ -45,7 +52,7 @@ def resolved_model(
             f"mode {mode} is beyond the {functions // 2} that {functions} functions resolve; "
             f"ask for functions={2 * mode} or more"
         )
-    return blade_continuum(blade, theory, functions, axial or max(4, 5 * functions // 8))
+    return blade_continuum(blade, theory, functions, axial or max(4, 5 * functions // 8), loaded)
 
 
 def require_shear(blade: Blade, theory: Theory) -> None:

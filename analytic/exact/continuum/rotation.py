@@ -23,6 +23,7 @@ from ...theory import Theory, require_theory
 from .answers import forces_caused
 from .basis import StrainFunctions
 from .equilibrium import Equilibrium
+from .loading import loaded, pushes
 from .planar import Continuum
 from .planar_rotation import on_more, require_shear, resolved_model
 from .space import SpaceContinuum
@@ -39,13 +40,15 @@ _MODES = 6  # whose answers a refinement adds
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 
 
-def space_continuum(blade: Blade, theory: Theory, functions: int) -> SpaceContinuum:
+def space_continuum(
+    blade: Blade, theory: Theory, functions: int, loads: Sequence[Load] = ()
+) -> SpaceContinuum:
     """Return the discretization by at least so many functions for each curvature."""
     require_section(blade)
     require_shear(blade, require_theory(theory))
     if theory.engesser:
         raise ValueError("Engesser's law of shear is known in the plane: leave engesser out")
-    unit = space_unit(blade)
+    unit = replace(space_unit(blade), loaded=loaded(loads, blade))
     a_panel = max(4, math.ceil(functions / unit.panel_count))
     return SpaceContinuum(
         StrainFunctions(
@@ -88,8 +91,8 @@ def continuum_of(
     require_blade(blade)
     lifted = any(load.leaves_plane for load in loads)
     if leaves_plane(blade) or leaves or lifted or blade.section.needs_space(require_theory(theory)):
-        return space_continuum(blade, theory, for_each)
-    return resolved_model(blade, mode, theory, functions, axial)
+        return space_continuum(blade, theory, for_each, loads)
+    return resolved_model(blade, mode, theory, functions, axial, loaded(loads, blade))
 
 
 def require_bent(name: str, bent: float) -> float:
@@ -106,8 +109,9 @@ def require_section(blade: Blade) -> None:
     """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
     if not blade.section.knows_space:
         raise ValueError(
-            "twist, precone, prebend, sweep, offsets, a setting angle, a kick or tilted gravity "
-            "bend a blade out of its plane and twist it: give its stiffness there by "
+            "twist, precone, prebend, sweep, offsets, a setting angle, tilted gravity, moments, "
+            "loads that follow sections or leave the plane, or a kick bend a blade out of its "
+            "plane and twist it: give its stiffness there by "
             "blade.with_section_out_of_plane(bending_ratio, torsion_ratio), math.inf for a section "
             "that does not twist"
         )
@@ -127,8 +131,7 @@ class SteadyBlade:
     rate: float  # w̄ = ω/√(EI3/mL³)
     component: int = GAUGES["lag"]
     near: FloatArray | None = None  # from where the steady state is found; from rest by default
-    load: tuple[tuple[float, ...], ...] = ()  # dead force and moment at the tip, over EI3/L², EI3/L
-    lift: float = 0.0  # pull on all masses along the axis of rotation, over EI3/(m0 L³)
+    loads: tuple[Load, ...] = ()  # without dimensions, as they are at t = 0
     mirror: bool = False
     given: tuple[FloatArray, Tangent] | None = None  # steady state and its tangent, if known
     driven: ClassVar[bool] = False
@@ -160,7 +163,7 @@ class SteadyBlade:
     def by(self, *drive: Any) -> Driven:
         """Return what drives it, where a drive acts at phases (samples,) and a frequency."""
         del drive
-        return Driven(self.rate, push=self.push)
+        return self._acting
 
     def residual(self, *state: Any) -> FloatArray:
         """Return the virtual work (samples, n) of all forces in states q, q̇, q̈ and their drive."""
@@ -186,14 +189,10 @@ class SteadyBlade:
         return np.asarray(self.model.kinetic_energy(q, q_dot))
 
     @cached_property
-    def push(self) -> FloatArray | None:
-        """The load, as `model.residual` takes it."""
-        if not (self.load or self.lift):
-            return None
-        result: FloatArray = self.model.push(np.zeros(1, dtype=complex), "mass", self.lift)
-        if self.load:
-            result[[0, 2]] = np.multiply.outer(self.load, self.model.weights)[:, :, None]
-        return result
+    def _acting(self) -> Driven:
+        now = np.zeros(1)
+        loads = [(load, load.phase_at(now)) for load in self.loads]
+        return Driven(self.rate, 0.0, *pushes(self.model, loads, now))
 
     @cached_property
     def odd(self) -> NDArray[np.bool_] | None:
@@ -220,7 +219,7 @@ class SteadyBlade:
     def _steady(self) -> tuple[FloatArray, Tangent]:
         if self.given is not None:
             return self.given
-        return Equilibrium(self.model, self.rate, self.push).followed(self.near)
+        return Equilibrium(self.model, self._acting).followed(self.near)
 
     def gauge(self, q: FloatArray) -> FloatArray:
         """Return the tip's place along the component, from the steady state, (samples,)."""
@@ -229,7 +228,7 @@ class SteadyBlade:
     @cached_property
     def _still(self) -> float:
         """The component in the steady state: zero of a blade that stays straight."""
-        straight = self.push is None and self.model.uncoupled
+        straight = not self.loads and self.model.uncoupled
         return 0.0 if straight else float(self.tip[self.component])
 
     def gauge_rate(self, q: FloatArray, q_dot: FloatArray) -> FloatArray:
@@ -274,7 +273,7 @@ class SteadyBlade:
     @property
     def blocks(self) -> list[NDArray[np.intp]]:
         """Places of coordinates that move without the others: of lag, of flap and torsion."""
-        if not self.model.uncoupled or self.push is not None:
+        if not self.model.uncoupled or self.loads:
             return [np.arange(self.size)]
         return list(map(np.flatnonzero, self.model.blocks))
 
@@ -288,7 +287,7 @@ class SteadyBlade:
         K, C, M = (part[0][np.ix_(moving, moving)] for part in self.linearized[1:])
         skew, turn = 0.5 * (C - C.T), np.ones(moving.size, dtype=np.complex128)
         coupling: FloatArray | ComplexArray = -1j * skew
-        if self.odd is not None and self.push is None:
+        if self.odd is not None and not self.loads:
             odd = self.odd[moving]
             coupling = np.where(np.outer(odd, ~odd), skew, 0.0)
             coupling, turn = coupling + coupling.T, np.where(odd, 1.0, 1.0j)

@@ -36,6 +36,7 @@ from ...methods.system import Tangent
 from ...theory import Theory
 from .changes import Changes, Rates, State
 from .space_kinematics import SpaceKinematics
+from .span import Span
 from .state import Driven, flap_of_kick
 from .vectors import cross, turned, turned_back
 
@@ -64,7 +65,7 @@ class SpaceContinuum(SpaceKinematics):
         self, at: State, motion: Rates, by: Driven
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return m a at the masses, and F and M on the grid, with weights."""
-        push = by.push
+        push, follow = by.push, self._following(at, by)
         body = 0.0 if push is None else push[1][..., :1]
         pulled = self.masses.mass * (motion.acceleration - body)
         if not self.masses.turns:
@@ -82,12 +83,20 @@ class SpaceContinuum(SpaceKinematics):
         force = -self.integrals.beyond(held)
         if push is not None:
             force += push[0]
+        for span, acting in follow:
+            force += span.beyond(acting[:, 0])
         twist = rotary + cross(at.offset_m, pulled)
         self.at_points(twist)[:] -= cross(at.slope, force)
         moment = -self.integrals.beyond(twist)
         if push is not None:
             moment += push[2]
+        for span, acting in follow:
+            moment += span.beyond(acting[:, 1])
         return pulled, force, moment
+
+    def _following(self, at: State, by: Driven) -> list[tuple[Span, FloatArray]]:
+        """Return force and moment of loads that follow, (3, 2, samples, places), in b."""
+        return [(span, turned(span.sections(at.K)[:, :, None], part)) for span, part in by.follow]
 
     def residual(
         self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
@@ -96,6 +105,7 @@ class SpaceContinuum(SpaceKinematics):
 
         A push (3, 3, samples, points) is the load beyond each Gauss point, times its weight, the
         acceleration that another one gives to all masses, and the couple beyond each point.
+        What follows the sections is apart from it.
         """
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, by)
@@ -154,6 +164,8 @@ class SpaceContinuum(SpaceKinematics):
         change = Changes(self, at, motion, *self._clamp(by)[:2])
         mass, damping, stiffness = change.matrices()
         stiffness += change.geometric(pulled, force, moment)
+        for span, acting in self._following(at, by):
+            stiffness -= change.following(span.running.of, acting)
         stiffness += self.functions.stiffness
         damping += self.functions.damping
         residual = self._work(at, q, q_dot, force, moment)
@@ -263,6 +275,18 @@ class SpaceContinuum(SpaceKinematics):
             result[1] = np.stack(parts)[..., None]
         else:
             result[0] = np.multiply.outer(np.stack(parts), self.outboard[acts_on])
+        return result
+
+    def span(self, stations: tuple[float, ...]) -> Span:
+        """Return where a load on the span acts."""
+        if stations not in self._spans:
+            self._spans[stations] = Span(self.functions.grid, stations, self.blade)
+        return self._spans[stations]
+
+    def push_on(self, span: Span, acting: FloatArray) -> FloatArray:
+        """Return force and moment (3, 2, samples, places) of a dead load, as a push."""
+        result = np.zeros((3, 3, acting.shape[2], self.points.size))
+        result[0], result[2] = span.beyond(acting[:, 0]), span.beyond(acting[:, 1])
         return result
 
     def moved(

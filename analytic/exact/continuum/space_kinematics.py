@@ -10,6 +10,7 @@ import numpy as np
 from ...arrays import FloatArray
 from .basis import StrainFunctions
 from .changes import Rates, State
+from .span import Span
 from .state import Driven
 from .vectors import Frames, cross, turned
 
@@ -30,6 +31,7 @@ class SpaceKinematics:
         self._frames = Frames(self.integrals, self.blade.kinks)
         self.masses = masses
         self.strains = functions.at(grid.points)
+        self._spans = dict[tuple[float, ...], Span]()
         self.outboard = {"length": self.weights * (1.0 - self.points), "tip": self.weights}
 
     def at_points(self, field: FloatArray) -> FloatArray:

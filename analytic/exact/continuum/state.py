@@ -153,6 +153,16 @@ class Driven(NamedTuple):
     rate: Any  # w, a number or (samples,)
     rate_dot: Any = 0.0
     push: Any = None  # load beyond each Gauss point, as the discretization's `push` returns it
+    follow: Any = ()  # loads that turn with sections: each a `Span`, force and moment there
+
+    def share(self, part: float) -> Driven:
+        """Return a share of speed and loads."""
+        return Driven(
+            part * self.rate,
+            part * self.rate_dot,
+            None if self.push is None else part * self.push,
+            tuple((span, part * wrench) for span, wrench in self.follow),
+        )
 
 
 def flap_of_kick(x: FloatArray, derivative: int = 0) -> FloatArray:

@@ -164,3 +164,13 @@ def _from_unit(curvature: FloatArray, integral: FloatArray) -> FloatArray:
                 break
     u, v = rates(solution) @ onto
     return np.stack((1.0 + u.real, u.imag, v.real, v.imag))
+
+
+def rotation_vectors(turns: FloatArray) -> FloatArray:
+    """Return the rotation vectors (..., 3) of rotations (..., 3, 3) by less than half a turn."""
+    across = 0.5 * np.stack(
+        [turns[..., k - 1, k - 2] - turns[..., k - 2, k - 1] for k in range(3)], axis=-1
+    )
+    sine = np.linalg.norm(across, axis=-1, keepdims=True)
+    angle = np.arctan2(sine, 0.5 * (np.trace(turns, axis1=-2, axis2=-1)[..., None] - 1.0))
+    return np.asarray(across * np.where(sine > 0.0, angle / np.where(sine > 0.0, sine, 1.0), 1.0))

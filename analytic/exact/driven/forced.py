@@ -18,12 +18,12 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit_curve import Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..continuum.loading import pushes, unit_load
 from ..continuum.planar import MOST_FUNCTIONS
 from ..continuum.rotation import SteadyBlade, continuum_of, rotating_blade
 from ..continuum.state import Driven
 from ..linear.modes import driven_modes
 from .forced_orbits import ForcedResponse, ResponseNotReachedError
-from .transient import pushes, unit_load
 
 _LARGEST = 0.95  # |q|/L to which a response is followed
 
@@ -66,9 +66,9 @@ class DrivenBlade(SteadyBlade):
         phase, nu = drive
         # Gravity goes by the angle, which is its phase; what goes by the phase alone is told none.
         angle = phase if self._turns else np.full_like(phase, np.nan)
-        push = pushes(self.model, [(self.drive, phase)], angle)
         rate = self.speed(nu) + self.drive.rate(phase)
-        return Driven(rate, self.drive.acceleration(phase, nu), push)
+        acting = pushes(self.model, [(self.drive, phase)], angle)
+        return Driven(rate, self.drive.acceleration(phase, nu), *acting)
 
 
 @one_thread

@@ -15,22 +15,16 @@ from numpy.typing import ArrayLike
 from ...arrays import FloatArray, few_at_once
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm
-from ...input_checks import finite_number, points_of_beam, positive, times_from_rest
+from ...input_checks import points_of_beam, positive, times_from_rest
 from ...loads import Load, loads_in_time, rippled
-from ...motion import SpeedChange, require_ramp
+from ...motion import SpeedChange, SteadyRotation
 from ...settled import KNOWN, settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ...warning import warn
-from ..continuum.rotation import (
-    SteadyBlade,
-    continuum_of,
-    finer_blades,
-    require_bent,
-    rotating_blade,
-)
-from ..continuum.state import SectionLoads, in_newtons
-from ..linear.families import flap_shape
+from ..continuum.rotation import SteadyBlade, continuum_of, finer_blades, rotating_blade
+from ..continuum.state import BladeState, SectionLoads, in_newtons, state_of
+from .start import Start, checked_start, started
 from .transient import BladeMotion, drive, grid_of, integrated
 
 _TOLERANCE = 1e-8
@@ -54,7 +48,7 @@ class SpinUpResponse:
 
     Attributes
     ----------
-    beam, spin_up, loads, theory : as given
+    beam, spin_up, loads, start, theory : as given
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)
@@ -80,8 +74,9 @@ class SpinUpResponse:
     """
 
     blade: Blade
-    spin_up: SpeedChange
+    spin_up: SpeedChange | SteadyRotation
     loads: tuple[Load, ...]
+    start: Start
     theory: Theory
     time: FloatArray
     q: FloatArray = field(repr=False)
@@ -110,6 +105,11 @@ class SpinUpResponse:
         standing, loads = (place, section), (force, moment)
         return in_newtons(self.blade, at, standing, loads, model.trapeze)
 
+    def state(self, i: int, x: ArrayLike) -> BladeState:
+        """Return the state at time `i` at the material points `x` [m], to start a motion from."""
+        q, q_dot, _ = self._state[:, i]
+        return state_of(self.blade, self._model, q, q_dot, x)
+
     @property
     def lag(self) -> FloatArray:
         """Place of the tip in the direction of rotation [m], (times,)."""
@@ -135,13 +135,14 @@ class SpinUpResponse:
 @one_thread
 def spin_up_response(
     blade: Blade,
-    spin_up: SpeedChange,
+    spin_up: SpeedChange | SteadyRotation,
     times: float | ArrayLike,
     *,
     tolerance: float | None = None,
     theory: Theory = BERNOULLI_EULER,
     points: ArrayLike = (),
     loads: Sequence[Load] = (),
+    start: Start = "straight",
     kick: float = 0.0,
     bent: float = 0.0,
 ) -> SpinUpResponse:
@@ -154,8 +155,8 @@ def spin_up_response(
     Parameters
     ----------
     blade : Blade
-    spin_up : SpinUp, FourierRamp or SpeedTable
-        Before it the beam is straight, and stretched as the speed at t = 0 has it.
+    spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
+        Before it the beam turns at its speed at t = 0.
     times : array_like
         Times of the response [s], ascending, not before 0.
     tolerance : float, optional
@@ -167,6 +168,11 @@ def spin_up_response(
         Material points [m], from 0 to L, whose positions are wanted as well, to draw the beam.
     loads : sequence of loads
         What acts from t = 0 on: gravity, forces and ripples, each with its frequency.
+    start : {"straight", "steady"} or callable
+        State at t = 0. "straight", as the speed alone has it, lets loads that act at once excite
+        every wave; "steady" is the steady state under the loads as they are at t = 0. A function
+        returns the `BladeState` at points x [m], as `simulate` takes it: of an orbit
+        ``lambda x: orbits.state(0, x)``, of a response before ``lambda x: found.state(-1, x)``.
     kick : float
         Speed of the tip out of the plane at t = 0 [m/s], of a planar blade that is still straight:
         its points move as `analytic.exact.continuum.state.flap_of_kick` has it.
@@ -191,12 +197,11 @@ def spin_up_response(
     [-2.0782 -3.9266  1.442 ]
     """
     time = times_from_rest(times)
-    require_ramp(spin_up)
+    kick, bent = checked_start(blade, spin_up, start, kick, bent)
     warn_if_rpm(blade, spin_up.fastest)
     loads = loads_in_time(loads)
     rotation = rippled(spin_up, loads)
     along = points_of_beam("points", points, blade.length)
-    kick, bent = _leaving(blade, kick, bent)
     at_fastest = partial(_at_fastest, blade, spin_up, theory, loads, leaves=bool(kick or bent))
     steady = at_fastest(math.ceil(_A_DIGIT * _DIGITS[0]))
     controlled, by_answers = steady.model.has_dear_tangent, steady.model.answers
@@ -205,22 +210,19 @@ def spin_up_response(
     functions = math.ceil(_A_DIGIT * digits)
     # The kinks of a table leave an algebraic tail.
     table = blade.unit.cells.size > _MANY_CELLS
-    more = max(functions // 2 if table else _MORE_FUNCTIONS, blade.unit.panel_count)
-    if by_answers:
-        steady, *_ = settled(
-            lambda one: one, finer_blades(steady), tolerance, _numbers, "", "", left=math.inf
-        )
-    else:
-        steady = at_fastest(functions)
+    more = max(functions // 2 if table else _MORE_FUNCTIONS, steady.model.blade.panel_count)
+    steady = _settled(steady, tolerance) if by_answers else at_fastest(functions)
     coarser, error, size = None, math.inf, 0.0
     within = _WITHIN * tolerance if controlled else None
     for level in range(_REFINEMENTS):
         if level:
             steady = steady.refined() if by_answers else at_fastest(functions)
         model = steady.model
-        q = rotating_blade(blade, spin_up.start, model).equilibrium
-        q = q + (bent * flap_shape(model) if bent else 0.0)
-        q_dot = model.struck(kick / (blade.length * blade.frequency_scale)) if kick else 0.0
+        q, q_dot = started(blade, model, spin_up.start, start, loads, kick, bent)
+        if callable(start) and controlled and not (level or table or by_answers):
+            # Functions that do not resolve the start swing about it in waves of their own.
+            functions = max(model.needed(q[None], tolerance), model.bending + more)
+            continue
         grid = _grid(blade, spin_up, float(time[-1]), digits, None if controlled else level)
         finer = integrated(blade, rotation, loads, model, grid, time, along, q, q_dot, within)
         functions = model.bending + more
@@ -235,7 +237,8 @@ def spin_up_response(
                     continue
             within /= _FINER if coarser is None else _AGAIN
         if coarser is not None:
-            error, size = _change(coarser, finer)
+            # At constant speed a blade at rest in its frame deflects by round-off.
+            error, size = _change(coarser, finer, (not spin_up.ramp_time) * _ROUND_OFF / tolerance)
             if error <= tolerance:
                 break
         coarser = finer
@@ -248,6 +251,7 @@ def spin_up_response(
         blade=blade,
         spin_up=spin_up,
         loads=loads,
+        start=start,
         theory=theory,
         time=time,
         points=blade.length * along,
@@ -264,19 +268,9 @@ def spin_up_response(
     )
 
 
-def _leaving(blade: Blade, kick: float, bent: float) -> tuple[float, float]:
-    kick, bent = finite_number("kick", kick, "m/s"), require_bent("bent", bent)
-    if (kick or bent) and not blade.is_planar:
-        raise ValueError(
-            "kick and bent move a blade out of its plane, which this one leaves by itself: leave "
-            "them out"
-        )
-    return kick, bent
-
-
 def _at_fastest(
     blade: Blade,
-    spin_up: SpeedChange,
+    spin_up: SpeedChange | SteadyRotation,
     theory: Theory,
     loads: Sequence[Load],
     functions: int,
@@ -300,15 +294,23 @@ def _checked(tolerance: float | None, default: float) -> float:
     return float(tolerance)
 
 
+def _settled(steady: SteadyBlade, tolerance: float) -> SteadyBlade:
+    """Return a blade on functions by which its lowest modes and its steady state settle."""
+    found, *_ = settled(
+        lambda one: one, finer_blades(steady), tolerance, _numbers, "", "", left=math.inf
+    )
+    return found
+
+
 def _numbers(steady: SteadyBlade) -> FloatArray:
     """Return logarithms of the lowest frequencies, and the tip's place and turn."""
     turn = steady.model.tip_turn(steady.equilibrium[None])
     return np.concatenate((np.log(steady.vibration[0][:_MODES]), steady.tip, turn))
 
 
-def _change(coarser: BladeMotion, finer: BladeMotion) -> tuple[float, float]:
+def _change(coarser: BladeMotion, finer: BladeMotion, least: float) -> tuple[float, float]:
     """Return the largest change of the tip's place and twist over the largest |q|, and that."""
-    size = float(np.abs(finer.tip[:, 1:]).max())
+    size = max(float(np.abs(finer.tip[:, 1:]).max()), least)
     changes = finer.tip - coarser.tip, finer.twist - coarser.twist
     return max(float(np.abs(change).max()) for change in changes) / (size or 1.0), size
 
@@ -331,21 +333,25 @@ def _what_to_try(tolerance: float, error: float, size: float, end: float) -> str
 
 
 def _grid(
-    blade: Blade, spin_up: SpeedChange, end: float, digits: float, level: int | None
+    blade: Blade,
+    spin_up: SpeedChange | SteadyRotation,
+    end: float,
+    digits: float,
+    level: int | None,
 ) -> FloatArray:
     """Return the ends of steps [s], or without a level of stretches that are cut into steps.
 
     One of them is the end of the ramp, where Eq. 1 has a kink, as others may.
     """
-    corners = [0.0, min(spin_up.ramp_time, end)]
-    if end > spin_up.ramp_time:
-        corners.append(end)
+    corners = sorted({0.0, min(spin_up.ramp_time, end), end})
     # A short ramp still has to be seen as the smooth curve it is.
-    lengths = spin_up.shortest_wave, end
+    lengths: tuple[float, ...] = spin_up.shortest_wave, end
     if level is not None:
         rate = spin_up.fastest / blade.frequency_scale
         first = float(np.interp(digits, (6.0, 8.0), _STEPS)) / _SHORTER**level
         longest = first * min(1.0, 10.0 / rate if rate else 1.0) / blade.frequency_scale
         lengths = min(longest, spin_up.shortest_wave / 4.0), longest
+    if not spin_up.ramp_time:
+        lengths = lengths[1:]
     parts = zip(pairwise(corners), lengths, strict=False)
     return grid_of(corners, [math.ceil((b - a) / step) for (a, b), step in parts])

@@ -1,8 +1,4 @@
-"""Motion of the exact blade in time, step by step in the rotating frame, and what drives it.
-
-A load is a complex force in the frame of the clamp, per mass (gravity), per length, or at the tip.
-A ripple of the speed is no force but changes w and ẇ.
-"""
+"""Motion of the exact blade in time, step by step in the rotating frame, and what drives it."""
 
 from __future__ import annotations
 
@@ -16,12 +12,12 @@ import numpy as np
 
 from ...arrays import FloatArray, few_at_once
 from ...blade import Blade
-from ...blade_checks import require_blade
-from ...loads import Load, require_load
+from ...loads import Load
 from ...methods.collocation import OWN_TANGENT, Collocation, Linearization, Residual, radau
 from ...methods.newton import Newton, Root
 from ...methods.system import Tangent
 from ...motion import Rotation
+from ..continuum.loading import pushes, unit_load
 from ..continuum.rotation import Model
 from ..continuum.state import Driven
 
@@ -61,39 +57,19 @@ class BladeMotion(NamedTuple):
     steps: int
 
 
-def unit_load(blade: Blade, load: Load) -> Load:
-    """Return a load without dimensions, in units of L, m0 L and √(m0 L⁴/EI0)."""
-    require_blade(blade)
-    require_load(load)
-    return load.in_units(
-        blade.length, blade.mass_per_length * blade.length, 1.0 / blade.frequency_scale
-    )
-
-
-def pushes(model: Model, loads: Sequence[tuple[Load, FloatArray]], angle: FloatArray) -> Any:
-    """Return the force of all loads, with their phases (samples,), as a model takes it, or None."""
-    total: Any = None
-    for load, phase in loads:
-        if load.acts_on is not None:
-            force, lift = load.force(phase, angle, model.setting), load.lift(phase)
-            push = model.push(force, load.acts_on, lift)
-            total = push if total is None else total + push
-    return total
-
-
 def drive(
     blade: Blade, rotation: Rotation, loads: Sequence[Load], model: Model
 ) -> Callable[[FloatArray], Driven]:
     """Return what gives w, ẇ and the push of the loads at times (stages,) [s]."""
     per_second = blade.frequency_scale
-    acting = [(unit_load(blade, load), load.frequency or 0.0) for load in loads]
+    acting = [unit_load(blade, load) for load in loads]
 
     def at(times: FloatArray) -> Driven:
-        phases = [(load, frequency * times) for load, frequency in acting]
+        phases = [(load, load.phase_at(per_second * times)) for load in acting]
         return Driven(
             rotation.rate(times) / per_second,
             rotation.acceleration(times) / per_second**2,
-            pushes(model, phases, rotation.angle(times)),
+            *pushes(model, phases, rotation.angle(times)),
         )
 
     return at
@@ -248,7 +224,8 @@ class _Control:
         # The elastic energy is ½ q·q: forces on the blade at its start are what bends it.
         still = np.zeros((_INSTANTS, start.size))
         self.start, self.size = start, 0.0
-        self.size = self._moved(model.residual(start + still, still, still, by))
+        moved = model.residual(start + still, still, still, by)
+        self.size = max(self._moved(moved), self._moved(start))
         self.speed = self.size
 
     def _moved(self, change: FloatArray) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,10 +12,12 @@ from numpy.typing import ArrayLike
 from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm
-from ...input_checks import finite_array, finite_number, points_of_beam, rotation_speed
+from ...input_checks import finite_number, points_of_beam, rotation_speed
+from ...loads import Gravity, Load, PointLoad, loads_at_once
 from ...settled import require_tolerance, settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..continuum.loading import unit_load
 from ..continuum.rotation import (
     FUNCTIONS,
     SteadyBlade,
@@ -31,7 +35,7 @@ class SteadyState:
 
     Attributes
     ----------
-    blade, omega, theory, force, moment, gravity : as given
+    blade, omega, theory, force, moment, gravity, loads : as given
     tip : ndarray (3,)
         Place of the tip from the clamp [m]: along the clamp, in the direction of rotation, and
         normal to both, up; the precone tilts the first and the last.
@@ -47,6 +51,7 @@ class SteadyState:
     force: tuple[float, ...]
     moment: tuple[float, ...]
     gravity: float
+    loads: tuple[Load, ...]
     tip: FloatArray
     twist: float
     error: float
@@ -59,6 +64,11 @@ class SteadyState:
             self.blade.length * self._steady.model.places(self._steady.equilibrium[None], at)[0]
         )
 
+    def state(self, x: ArrayLike) -> BladeState:
+        """Return the state at the material points `x` [m], to start a motion from."""
+        q = self._steady.equilibrium
+        return state_of(self.blade, self._steady.model, q, 0.0 * q, x)
+
     def section_loads(self, x: ArrayLike) -> SectionLoads:
         """Return the sections at `x` [m], and force and moment in them, each (points, 3)."""
         at = points_of_beam("x", x, self.blade.length)
@@ -70,15 +80,6 @@ class SteadyState:
         return in_newtons(self.blade, at, standing, loads, self.theory.trapeze)
 
 
-def _vector(name: str, value: ArrayLike, unit: str) -> tuple[float, ...]:
-    vector = finite_array(name, value, unit)
-    if vector.shape != (3,):
-        raise ValueError(
-            f"{name} must be three numbers [{unit}], got {value!r}: as (0.0, 0.0, 1.0)"
-        )
-    return tuple(vector.tolist())
-
-
 @one_thread
 def steady_state(
     blade: Blade,
@@ -87,10 +88,11 @@ def steady_state(
     force: ArrayLike = (0.0, 0.0, 0.0),
     moment: ArrayLike = (0.0, 0.0, 0.0),
     gravity: float = 0.0,
+    loads: Sequence[Load] = (),
     theory: Theory = BERNOULLI_EULER,
     tolerance: float | None = None,
 ) -> SteadyState:
-    """Return the steady state of a blade in rotation, under a load at its tip and its weight.
+    """Return the steady state of a blade in rotation, under loads.
 
     Speed and load are raised from zero together, at once where Newton's method is sure to stay on
     the branch, otherwise in steps; functions are added until the tip settles.
@@ -105,6 +107,8 @@ def steady_state(
         On the tip [N], [N m]; in the root frame, as `tip`, they keep their directions.
     gravity : float
         g [m/s²], where the axis of rotation points up, as ``Gravity(g, tilt=math.pi / 2)`` has it.
+    loads : sequence of loads
+        More of them, each as it is at t = 0 and stays in the turning frame.
     theory : Theory
         Extension, shear, rotary inertia, trapeze effect.
     tolerance : float, optional
@@ -126,17 +130,14 @@ def steady_state(
     """
     omega = rotation_speed(omega)
     warn_if_rpm(blade, omega)
-    force, moment = (
-        _vector(name, value, unit)
-        for name, value, unit in (("force", force, "N"), ("moment", moment, "N m"))
-    )
-    gravity = finite_number("gravity", gravity, "m/s^2")
-    first = rotating_blade(blade, omega, space_continuum(blade, theory, FUNCTIONS))
-    first = replace(first, lift=-gravity / (blade.length * blade.frequency_scale**2))
-    if any((*force, *moment)):
-        EI, L = blade.bending_stiffness, blade.length
-        load = tuple(f * L**2 / EI for f in force), tuple(m * L / EI for m in moment)
-        first = replace(first, load=load)
+    pull = PointLoad(force=force, moment=moment)
+    gravity, loads = finite_number("gravity", gravity, "m/s^2"), loads_at_once(loads)
+    acting = [*loads, *[pull] * bool(pull.size)]
+    acting += [Gravity(gravity, tilt=0.5 * math.pi)] * bool(gravity)
+    first = rotating_blade(
+        blade, omega, space_continuum(blade, theory, FUNCTIONS, acting),
+        loads=tuple(unit_load(blade, load) for load in acting),
+    )  # fmt: skip
     _, steady, error = settled(
         lambda one: one,
         finer_blades(first),
@@ -146,8 +147,8 @@ def steady_state(
         "rotate slower, or load it less",
     )
     return SteadyState(
-        blade=blade, omega=omega, theory=theory, force=force, moment=moment, gravity=gravity,
-        tip=blade.length * steady.tip, error=error, _steady=steady,
+        blade=blade, omega=omega, theory=theory, force=pull.force, moment=pull.moment,
+        gravity=gravity, loads=loads, tip=blade.length * steady.tip, error=error, _steady=steady,
         twist=float(steady.model.tip_turn(steady.equilibrium[None])[0]),
     )  # fmt: skip
 

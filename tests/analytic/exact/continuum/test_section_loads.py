@@ -18,10 +18,10 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
+from analytic.exact.continuum.loading import pushes, unit_load
 from analytic.exact.continuum.planar_rotation import blade_continuum
 from analytic.exact.continuum.rotation import SteadyBlade
 from analytic.exact.continuum.state import Driven
-from analytic.exact.driven.transient import pushes, unit_load
 from analytic.quadrature import gauss_points
 from analytic.theory import BERNOULLI_EULER
 from rotbeam_exu.runs.shape import shape_of
@@ -42,7 +42,7 @@ def test_at_rest_under_gravity_the_moment_is_the_weight_times_its_lever(beam, ta
     model = blade_continuum(blade, BERNOULLI_EULER, 8, 4)
     load = unit_load(blade, Gravity(g))
     at_angle = np.array([angle])
-    push = pushes(model, [(load, at_angle)], at_angle)
+    push, _ = pushes(model, [(load, at_angle)], at_angle)
     still = np.zeros((1, model.size))
     x = np.array([0.0, 0.3, 0.7, 1.0])
     force, moment = model.section_loads(x, still, still, still, Driven(0.0, push=push))

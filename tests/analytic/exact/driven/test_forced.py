@@ -161,7 +161,7 @@ def test_what_a_response_says_of_itself(loaded):
                                  [3.0, 4.0]), ValueError, "leave it out of the load"),
         (lambda: forced_response(by_mass(0.1), 6.0, TipForce(amplitude=1.0), [4.0, 3.0]),
          ValueError, "above 0 and ascending"),
-        (lambda: forced_response(by_mass(0.1), 6.0, 3.0, [3.0, 4.0]), TypeError, "must be a Speed"),
+        (lambda: forced_response(by_mass(0.1), 6.0, 3.0, [3.0, 4.0]), TypeError, "a PointLoad"),
         (lambda: forced_response(BEAM, [3.0, 3.1, 3.5], Gravity()), ValueError,
          "meets 1 times the speed"),
         (lambda: Damping(bending=-0.1), ValueError, "damping takes energy, it gives none"),

@@ -124,9 +124,10 @@ def test_a_ramp_far_shorter_than_the_period_is_a_blow(beam):
     assert response.q[0] == pytest.approx(-beam.length * spin_up.angle(time), rel=1e-3)
 
 
-def test_a_beam_that_turns_already_is_no_spin_up(beam):
-    with pytest.raises(TypeError, match="a SpeedTable or another SpeedChange, got SteadyRotat"):
-        spin_up_response(beam, SteadyRotation(omega=6.0), [1.0])
+def test_a_beam_that_turns_already_stays_straight(beam):
+    found = spin_up_response(beam, SteadyRotation(omega=6.0), [0.0, 1.0])
+    assert np.abs(found.q).max() < 1e-13 * beam.length
+    assert found.tip[1] == pytest.approx(found.tip[0], abs=1e-12)
 
 
 def test_no_rotation_no_motion(beam):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import make_interp_spline
 
-from analytic import Beam, RotbeamWarning, Theory, steady_state
+from analytic import Beam, PointLoad, RotbeamWarning, Theory, steady_state
 from analytic.exact.continuum.rotation import rotating_blade, space_continuum
 from analytic.exact.continuum.space import SpaceContinuum
 from rotbeam_exu.files.beam_file import load_beam
@@ -103,8 +103,8 @@ def test_large_loads_stay_on_the_branch(ratios, twist, cone, prebend, force):
     blade = blade.with_precone(cone).with_prebend(prebend)
     last = rotating_blade(blade, 0.0, space_continuum(blade, RIGID, 6))
     for share in np.linspace(0.0, 1.0, 201)[1:]:
-        load = tuple(share * f for f in force), (0.0, 0.0, 0.0)
-        last = replace(last, load=load, near=last.equilibrium)
+        load = PointLoad(force=share * np.array(force))
+        last = replace(last, loads=(load,), near=last.equilibrium)
     assert replace(last, near=None).tip == pytest.approx(last.tip, abs=1e-9)
 
 
