@@ -34,6 +34,7 @@ class SpanLoad(Load, abstract=True):
     phase: float
 
     acts_on: ClassVar[Literal["span"]] = "span"
+    varied: ClassVar[Literal["frequency", "speed"] | None] = "frequency"
 
     def _check_time(self) -> None:
         """Refuse a frequency, a phase and a flag that are none."""
@@ -230,6 +231,11 @@ class LoadTable(SpanLoad):
     def stations(self) -> tuple[float, ...]:  # type: ignore[override]
         """The points of the span."""
         return tuple(self.x)
+
+    @property
+    def varied(self) -> Literal["frequency"] | None:  # type: ignore[override]
+        """The frequency, of a table without times."""
+        return "frequency" if self.time is None else None
 
     def phase_at(self, t: FloatArray) -> FloatArray:
         """Return the time itself, or νt without instants."""

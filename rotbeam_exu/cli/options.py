@@ -117,9 +117,9 @@ def _has_default(kind: Any) -> bool:
 KINDS: dict[str, Any] = {
     option_of(kind).replace("-", "_"): kind
     for kind in sorted(kinds_of(Load).values(), key=_has_default)
-    if kind.varied
+    if kind.varied and kind.size is Load.size
 }
-"""Loads that have a response, by their options; loads that need no size come last."""
+"""Loads that have a response and one number, by their options; loads that need no size come last."""
 
 
 def _shapes() -> dict[str, Any]:

@@ -52,7 +52,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("run --config ../slip.toml", "unknown key 'omga' in [motion]; did you mean 'omega'?"),
         ("run --config ../element.toml", "unknown element 'cabel'"),
         ("run --config ../frame.toml", "unknown frame 'rotated'"),
-        ("reference --config ../load.toml", "has [[loads]], of which this command uses nothing"),
+        ("campbell --config ../load.toml", "has [[loads]], of which this command uses nothing"),
         ("compare --config ../blade.toml", "for a [blade] take rotbeam backbone"),
         ("explore --config ../stations.toml", "the Explorer is of a straight blade in its plane"),
         ("verify --config ../stations.toml", "verify has references of a straight blade in its"),

@@ -99,8 +99,8 @@ def forced_response(
         With damping: see `Blade.with_damping`.
     omega : float or sequence of float
         Rotation speed ω [rad/s]; under gravity speeds, ascending, in place of the frequencies.
-    load : SpeedRipple, TipForce, DistributedForce or Gravity
-        Without a frequency.
+    load : SpeedRipple, TipForce, DistributedForce, PointLoad, LoadTable or Gravity
+        Without a frequency, and a table without times.
     frequencies : sequence of float
         Drive frequencies ν [rad/s], ascending: the first and the last are the ends of the curve,
         those between are among its points, wherever it passes them. None under gravity.
@@ -110,7 +110,8 @@ def forced_response(
         Least number of functions for the tangent's angle, half as many for each curvature in space,
         and of harmonics.
     gauge : {"lag", "flap"}
-        Place of the tip whose greatest deflection is the amplitude; "flap" of a blade in space.
+        Place of the tip whose greatest deflection is the amplitude; "flap" of a blade in space, or
+        under a load that leaves the plane.
 
     Raises
     ------
@@ -135,10 +136,8 @@ def forced_response(
     """
     unit = unit_load(blade, load)
     if load.varied is None:
-        raise TypeError(f"forced_response varies the frequency of a load, and {load} has none")
-    if load.leaves_plane:
-        raise ValueError(
-            f"forced_response takes loads in the plane of rotation, which {load!r} leaves: take "
+        raise TypeError(
+            f"forced_response varies the frequency of a load, and {load} has none: take "
             "spin_up_response"
         )
     if load.frequency is not None:
@@ -148,7 +147,8 @@ def forced_response(
         )
     by_speed = load.varied == "speed"
     start = np.zeros(1)
-    if not by_speed and not np.isfinite(unit.force(start, np.nan * start, 1.0)).all():
+    by_phase = by_speed or load.acts_on in (None, "span")
+    if not by_phase and not np.isfinite(unit.force(start, np.nan * start, 1.0)).all():
         raise ValueError(
             f"{load} goes by the angle of the clamp as well, so that no response is periodic: take "
             "spin_up_response"
@@ -165,7 +165,7 @@ def forced_response(
         highest, values = rotation_speed(omega), _ascending("frequencies", frequencies)
         warn_if_rpm(blade, highest)
     functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
-    model = continuum_of(blade, theory, functions, functions // 2)
+    model = continuum_of(blade, theory, functions, functions // 2, loads=(load,))
     steady = rotating_blade(blade, highest, model, gauge)
     if not any(blade.unit.damping):
         _require_no_resonance(blade, None if by_speed else highest, theory, values)

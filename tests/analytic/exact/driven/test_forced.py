@@ -1,6 +1,8 @@
 """Forced response: published-to-be numbers, an independent integrator, and the limits."""
 
+import math
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,14 +11,18 @@ from analytic import (
     Beam,
     Damping,
     Gravity,
+    LoadTable,
+    PointLoad,
     ResponseNotReachedError,
     SpeedRipple,
+    SteadyRotation,
     Theory,
     TipForce,
     forced_response,
     linear_modes,
     periodic_orbits,
     reduced_model,
+    spin_up_response,
 )
 from analytic.methods.collocation import radau
 
@@ -206,3 +212,43 @@ def test_a_response_that_leaves_the_reach_is_kept_as_far_as_it_goes():
         )  # fmt: skip
     assert caught.value.part.amplitude.max() > 0.5
     assert "take more damping" in str(caught.value)
+
+
+SPACE = BEAM.with_section_out_of_plane(0.0625, 0.08).with_damping(
+    Damping(external=0.3, bending=1e-3)
+)
+FOLLOWING = PointLoad(force=(0.0, 2.0, 1.0), moment=(0.5, 0.0, 0.0), position=5.0, following=True)
+
+
+@pytest.mark.parametrize(
+    ("omega", "load", "frequencies"),
+    [
+        ([7.0, 7.4], Gravity(9.81, tilt=0.1), None),
+        pytest.param(5.0, FOLLOWING, [5.5, 5.6], marks=pytest.mark.slow),
+    ],
+    ids=["tilted gravity", "what follows the sections"],
+)
+def test_a_turn_of_time_integration_comes_back_to_the_orbit_in_space(omega, load, frequencies):
+    found = forced_response(SPACE, omega, load, frequencies, gauge="flap", functions=6)
+    first, w = found.frequency[0], found.omega[0]
+    times = np.array([0.0, 0.5, 1.0]) * 2.0 * math.pi / first
+    acting = load if frequencies is None else replace(load, frequency=first)
+    tip = spin_up_response(
+        SPACE, SteadyRotation(omega=w), times, loads=[acting],
+        start=lambda x: found.state(0, x), tolerance=1e-5,
+    ).tip  # fmt: skip
+    assert tip[2] == pytest.approx(tip[0], abs=1e-6)
+    assert abs(tip[1, 2] - tip[0, 2]) > 1e-2  # it moves
+
+
+def test_a_force_by_its_components_or_by_a_table_is_that_of_its_kind():
+    at = [3.0, 3.2]
+    one = forced_response(SPACE, 6.0, TipForce(amplitude=0.3), at, functions=8)
+    other = forced_response(SPACE, 6.0, PointLoad(force=(0.0, 0.3, 0.0)), at, functions=8)
+    assert other.amplitude[other.at(3.2)] == pytest.approx(one.amplitude[one.at(3.2)], rel=1e-9)
+
+
+def test_a_table_over_time_has_no_frequency_to_vary():
+    over_time = LoadTable(x=[0.0, 8.0], force=np.zeros((2, 2, 3)), time=[0.0, 1.0])
+    with pytest.raises(TypeError, match="has none: take spin_up_response"):
+        forced_response(SPACE, 6.0, over_time, [3.0, 3.2])
