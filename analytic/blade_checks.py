@@ -99,13 +99,13 @@ def with_torsion(blade: Blade) -> Blade:
 
 def undamped(blade: Blade) -> Blade:
     """Return the same without damping."""
-    return blade.with_damping(UNDAMPED) if any(blade.unit.damping) else blade
+    return blade.with_damping(UNDAMPED) if blade.damping else blade
 
 
 def require_undamped(blade: Blade, what: str) -> None:
     """Refuse a damped blade where `what` has no damping."""
     require_blade(blade)
-    if any(blade.unit.damping):
+    if blade.damping:
         raise ValueError(
             f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "
             "which has none"

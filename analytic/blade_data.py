@@ -161,11 +161,7 @@ class BladeData(Described, abstract=True):
             bending=in_units(section.bending_stiffness, length, self.bending_stiffness),
             axial=in_units(section.axial_stiffness, length, self.axial_stiffness),
             rotary=in_units(section.rotary_inertia or 0.0, length, m0 * length**2),
-            damping=(
-                self.damping.bending * self.frequency_scale,
-                self.damping.axial * self.frequency_scale,
-                self.damping.external / (m0 * self.frequency_scale),
-            ),
+            damping=self.damping.in_units(length, m0 * length, 1.0 / self.frequency_scale),
         )
 
     def _root(self, name: str) -> float:

@@ -235,14 +235,22 @@ class Damping(Described):
     EA(e + η_a ė). External damping takes d ṙ per length, with the velocity relative to the turning
     frame: it does not brake steady rotation as drag would, and point masses have none.
 
+    In space each component of curvature has its own η, by the section's axes: strains κ̇_i √η_i
+    meet the stiffness of the section, so that all damping takes energy where it couples. All η
+    equal make the damping proportional to the stiffness.
+
     Parameters
     ----------
     bending : float
-        η_b [s].
+        η_b [s], of bending in the plane of bending, by EI or EI3.
     axial : float
         η_a [s].
     external : float
         d [kg/(m s)]; c times the mass per length damps a uniform blade by its mass.
+    out_of_plane, torsion : float, optional
+        The same of bending by EI2 and of torsion by GJ [s]; as `bending`, unless given.
+    shear : float
+        The same of both shear forces [s], in a theory with shear.
 
     Examples
     --------
@@ -255,11 +263,25 @@ class Damping(Described):
     bending: float = 0.0
     axial: float = 0.0
     external: float = 0.0
+    out_of_plane: float | None = None
+    torsion: float | None = None
+    shear: float = 0.0
 
     def __post_init__(self) -> None:
-        for name, unit in (("bending", "s"), ("axial", "s"), ("external", "kg/(m s)")):
+        for name, value in vars(self).items():
+            if value is None and name in ("out_of_plane", "torsion"):
+                continue
+            unit = "kg/(m s)" if name == "external" else "s"
             remedy = "damping takes energy, it gives none"
-            self._keep(**{name: not_negative(name, getattr(self, name), unit, remedy)})
+            self._keep(**{name: not_negative(name, value, unit, remedy)})
+
+    @property
+    def of_strains(self) -> tuple[float, ...]:
+        """The six η [s]: of tension, shear forces, torsion, bending out of plane and in it."""
+        twisting, across = (
+            self.bending if given is None else given for given in (self.torsion, self.out_of_plane)
+        )
+        return self.axial, self.shear, self.shear, twisting, across, self.bending
 
     @classmethod
     def from_ratio(cls, blade: Any, mode: int = 1, ratio: float = 0.01) -> Damping:
@@ -284,14 +306,11 @@ class Damping(Described):
 
     def in_units(self, length: float, mass: float, time: float) -> Damping:
         """Return the same in units of length [m], mass [kg] and time [s]."""
-        return Damping(
-            bending=self.bending / time,
-            axial=self.axial / time,
-            external=self.external * length * time / mass,
-        )
+        rates = {k: None if v is None else v / time for k, v in vars(self).items()}
+        return Damping(**rates | {"external": self.external * length * time / mass})  # type: ignore[arg-type]
 
     def __bool__(self) -> bool:
-        return any((self.bending, self.axial, self.external))
+        return any(vars(self).values())
 
 
 UNDAMPED = Damping()

@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from .arrays import FloatArray, Profile, evaluated, stations
+from .parts import UNDAMPED, Damping
 from .quadrature import Grid
 
 _SAME = 1e-9  # stations and masses that are no farther apart
@@ -35,8 +36,7 @@ class UnitBlade:
     shear: Profile | None = None  # over the root's GA; as the axial stiffness if None
     cuts: tuple[float, ...] = ()  # where slices change besides, out of the plane or in shear
     loaded: tuple[float, ...] = ()  # where loads on the span begin, end or act on a point
-    # η_b and η_a times f and d/(m0 f), with f = √(EI/(m0 L⁴)).
-    damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    damping: Damping = UNDAMPED  # each η times f and d/(m0 f), with f = √(EI/(m0 L⁴))
 
     @cached_property
     def setting(self) -> float:
@@ -92,7 +92,7 @@ class UnitBlade:
                 ("a setting angle", self.setting != 1.0),
                 ("a variable section", sections != {1.0}),
                 ("rotary inertia", self.rotary != 0.0),
-                ("damping", any(self.damping)),
+                ("damping", bool(self.damping)),
             )
             if there
         )

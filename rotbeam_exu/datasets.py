@@ -287,7 +287,7 @@ def response_inputs(blade: Blade, load: Load, omega: float | None) -> dict[str, 
     """Return beam, damping, load and, unless it is swept, ω [rad/s] as attributes of a response."""
     return {
         **blade_attributes(blade),
-        **{f"damping_{name}": value for name, value in asdict(blade.damping).items()},
+        **{f"damping_{k}": v for k, v in asdict(blade.damping).items() if v is not None},
         **loads_attributes([load]),
         "load": type(load).__name__,
         "load_size": load.size,

@@ -82,8 +82,8 @@ def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed
     of = blade_functions(blade, functions)
     x, dx = blade.quadrature(2 * (of.across.a_panel + 4))
     along = of.across.twice(x)
-    viscosity, _, air = blade.damping
-    damping = viscosity * of.bending + air * along.T @ (dx[:, None] * along)
+    viscous, air = blade.damping.bending * of.bending, blade.damping.external
+    damping = viscous + air * along.T @ (dx[:, None] * along)
 
     def solve(x: FloatArray) -> Any:
         """Return the modes at speeds from x = -1 to 1, one in a row, in the order of `ModesAt`."""

@@ -119,7 +119,7 @@ KINDS: dict[str, Any] = {
     for kind in sorted(kinds_of(Load).values(), key=_has_default)
     if kind.varied and kind.size is Load.size
 }
-"""Loads that have a response and one number, by their options; loads that need no size come last."""
+"""Loads of one number that have a response, by options; those that need no size come last."""
 
 
 def _shapes() -> dict[str, Any]:

@@ -61,7 +61,7 @@ def respond(
         "damping_ratio",
         "external_damping",
     } & request.options.keys()  # perhaps as zero
-    if not damping_given and not any(blade.unit.damping):
+    if not damping_given and not blade.damping:
         raise ValueError(
             "the blade is undamped, and at resonance its response has no end: give "
             "--damping-ratio or --external-damping, 0 for none, or [blade.damping] in --config"

@@ -115,7 +115,7 @@ class RunCase:
     @property
     def exchanges_energy(self) -> bool:
         """Whether loads or damping bring energy or take it."""
-        return bool(self.loads) or any(self.blade.unit.damping)
+        return bool(self.loads) or bool(self.blade.damping)
 
     @cached_property
     def steps_and_sampling(self) -> tuple[int, int]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import Blade
+from analytic import Blade, Damping
 from analytic.arrays import FloatArray
 from analytic.input_checks import along, positive
 from analytic.station_section import StationSection
@@ -45,7 +45,9 @@ def blade_of_beamdyn(path: Path) -> Blade:
     """Return the blade of a primary file of BeamDyn and of the blade file that it names.
 
     The line goes through the key points, which BeamDyn itself fits by polynomials. It starts at the
-    clamp, without hub and cone. Damping is not read, and a warning says so.
+    clamp, without hub and cone. Damping proportional to the stiffness is read, of which BeamDyn's
+    acts on strains of its reference line and ours on those about the center of tension. Modal
+    damping is not, and a warning says so.
 
     Raises
     ------
@@ -61,9 +63,10 @@ def blade_of_beamdyn(path: Path) -> Blade:
     if points[0, :3].any():
         raise ValueError(f"{path}: the first key point must be 0 0 0, got {points[0, :3].tolist()}")
     length, line = line_through(points[:, [2, 1, 0]] * [1.0, -1.0, 1.0], -np.radians(points[:, 3]))
-    eta, stiffness, mass = _sections(ForeignText(text.beside(text.value("BldFile"))))
+    sections = ForeignText(text.beside(text.value("BldFile")))
+    eta, stiffness, mass = _sections(sections)
     blade = Blade.from_stations(length * eta, stiffness, mass)
-    return Blade(length=length, section=blade.section, line=line)
+    return Blade(length=length, section=blade.section, line=line, damping=_damping(sections))
 
 
 def _sections(text: ForeignText) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -84,9 +87,26 @@ def _sections(text: ForeignText) -> tuple[FloatArray, FloatArray, FloatArray]:
         )
     rows = np.array([text.row(k, 6) for n, k in enumerate(filled) if n % 13])
     matrices = _AXES @ rows.reshape(count, 2, 6, 6) @ _AXES
-    if text.value("damp_type") != "0":
-        warn(f"the damping in {text.path} is not read: give [blade.damping] in a TOML file")
     return eta, matrices[:, 0], matrices[:, 1]
+
+
+def _damping(text: ForeignText) -> Damping:
+    """Return the damping proportional to the stiffness; warn of another one."""
+    kind = text.value("damp_type")
+    if kind == "1":
+        mu = text.row(text.first(r"mu1\s+mu2\s", "line mu1") + 2, 6)
+        axial, *shears, torsion, out_of_plane, bending = np.abs(_AXES) @ mu
+        shear = 0.5 * sum(shears)
+        if shears[0] != shears[1]:
+            warn(
+                f"{text.path} damps both shear forces unlike, and their mean is taken, {shear:g} s"
+            )
+        return Damping(
+            bending=bending, axial=axial, out_of_plane=out_of_plane, torsion=torsion, shear=shear
+        )
+    if kind != "0":
+        warn(f"the damping in {text.path} is not read: give [blade.damping] in a TOML file")
+    return Damping()
 
 
 def blade_of_elastodyn(
@@ -173,12 +193,11 @@ def write_beamdyn(blade: Blade, path: Path) -> list[Path]:
     matrices = np.array((blade.section.stiffness, blade.section.mass))
     for place, *both in zip(eta, *(_AXES @ matrices @ _AXES), strict=True):
         stations += f"{place:.16f}\n" + "".join(f"{_rows(one)}\n\n" for one in both)
-    bending, axial = blade.damping.bending, blade.damping.axial
-    damped = int(bool(blade.damping))
+    damped, mu = int(bool(blade.damping)), np.abs(_AXES) @ blade.damping.of_strains
     contents = {
         path: _PRIMARY.format(count=len(keys), keys=_rows(keys + 0.0), blade=beside.name),
         beside: _BLADE.format(
-            count=eta.size, damped=damped, mu=_rows(np.array([[0, 0, axial, *2 * [bending], 0]])),
+            count=eta.size, damped=damped, mu=_rows(mu[None]),
             stations=stations,
         ),
     }  # fmt: skip

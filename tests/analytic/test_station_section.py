@@ -102,6 +102,43 @@ def test_damping_of_bending_is_about_the_center_of_tension():
         assert ratios[1] == pytest.approx(0.01, rel=0.02)  # lag, which axial inertia slows
 
 
+def test_each_component_of_strain_has_its_own_damping():
+    """Of modes at rest that one component alone bends, ζ = ηω/2."""
+    blade = unit_beam(1e-3).with_section_out_of_plane(R, G)
+    rates = {"lag": 1e-3, "flap": 3e-3, "torsion": 5e-5}
+    damping = Damping(bending=1e-3, out_of_plane=3e-3, torsion=5e-5)
+    modes, ratios = (
+        verb(blade.with_damping(damping), 0.0, 6) for verb in (linear_modes, damping_ratios)
+    )
+    expected = [
+        0.5 * rates[name.split()[0]] * w
+        for name, w in zip(modes.names, modes.frequencies, strict=True)
+    ]
+    assert {name.split()[0] for name in modes.names} == set(rates)
+    assert ratios == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.5])
+def test_equal_damping_of_all_strains_goes_with_the_stiffness_however_it_couples(turned):
+    S = np.array(stations(**CENTERS).section.stiffness)
+    S[:, 3, 4] = S[:, 4, 3] = 0.02
+    S[:, 0, 3] = S[:, 3, 0] = 3.0
+    blade = Blade.from_stations(X, S, stations(**CENTERS).section.mass)
+    blade = blade.with_twist(turned)
+    modes = linear_modes(blade, 0.0, 5, theory=SHEARED)
+    eta = 1e-3
+    ratios = damping_ratios(
+        blade.with_damping(Damping(bending=eta, axial=eta, shear=eta)), 0.0, 5, theory=SHEARED
+    )
+    assert ratios == pytest.approx(0.5 * eta * modes.frequencies, rel=1e-9)
+
+
+def test_damping_takes_energy_from_every_motion_of_a_coupled_section():
+    blade = stations(**CENTERS).with_damping(Damping(bending=0.0, torsion=1e-3, shear=2e-3))
+    model = space_continuum(blade, SHEARED, 6)
+    assert np.linalg.eigvalsh(model.functions.damping).min() > -1e-15
+
+
 def test_shear_centers_off_the_line_twist_a_blade_under_a_dead_force():
     """GJ κ1 = -F c2: a force on the line bends straight and twists by its lever to the centers."""
     blade = Blade.from_stations(X, STIFFNESS, MASS, shear=[(0.02, 0.0)] * 4)

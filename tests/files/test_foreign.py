@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from analytic import linear_modes
+from analytic import Damping, linear_modes
 from analytic.arrays import evaluated
 from analytic.exact.continuum.unit import space_unit
 from rotbeam_exu.files.beam_file import load_beam
@@ -391,9 +391,23 @@ def test_a_blade_file_without_its_primary_and_a_huge_file(folder, monkeypatch):
 
 
 def test_damping_is_not_dropped_in_silence(folder):
-    text = SECTIONS.replace("0  damp_type", "1  damp_type")
-    (folder / "x_Blade.dat").write_text(text)
+    path = folder / "x_Blade.dat"
+    path.write_text(SECTIONS.replace("0  damp_type", "2  damp_type"))
     with pytest.warns(UserWarning, match=r"the damping in .*x_Blade.dat is not read"):
+        load_beam(folder / "x_BeamDyn.dat")
+    mu = "0.01 0.03 0.04 0.05 0.06 0.07"
+    path.write_text(
+        SECTIONS.replace("0  damp_type", "1  damp_type").replace("0.1 0.1 0.1 0.1 0.1 0.1", mu)
+    )
+    with pytest.warns(UserWarning, match=r"damps both shear forces unlike, .* taken, 0.02 s"):
+        blade = load_beam(folder / "x_BeamDyn.dat")
+    assert blade.damping == Damping(
+        shear=0.02, axial=0.04, bending=0.05, out_of_plane=0.06, torsion=0.07
+    )
+    write_beamdyn(blade, folder / "again.dat")
+    assert load_beam(folder / "again.dat").damping == blade.damping
+    path.write_text(SECTIONS.replace("0  damp_type", "1  damp_type").replace("0.1 0.1", "x 0.1", 1))
+    with pytest.raises(ValueError, match="x_Blade.dat: "):
         load_beam(folder / "x_BeamDyn.dat")
 
 

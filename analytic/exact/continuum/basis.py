@@ -227,25 +227,23 @@ class StrainFunctions:
 
     @cached_property
     def damping(self) -> FloatArray:
-        """The viscous resistance to q̇, (n, n).
-
-        That of the moments about the center of tension, and of the tension; shear has none.
-        """
-        bend, stretch, _ = self.blade.damping
-        if not (bend or stretch):
+        """The viscous resistance to q̇ (n, n) of moments about the center of tension and forces."""
+        rates = np.sqrt(self.blade.damping.of_strains)
+        if not rates.any():
             return np.zeros_like(self.stiffness)
         grid = self._energy_grid
-        soft = self.flexibility(grid.points)
-        forces = self.forces(grid.points)[:, :3]
+        soft, forces = self.flexibility(grid.points), self.forces(grid.points)
         # Strains under forces where the section does not bend: what is left are the moments'.
         beside, bends = soft[:, :3, 3:], np.linalg.pinv(soft[:, 3:, 3:], hermitian=True)
         along = soft[:, :3, :3] - beside @ bends @ np.swapaxes(beside, 1, 2)
-        apart = -bend * along
-        apart[:, 0, 0] += stretch * along[:, 0, 0]
-        apart *= grid.weights[:, None, None]
-        return np.asarray(
-            bend * self.stiffness + np.einsum("pik,pil->kl", forces, apart @ forces, optimize=True)
-        )
+        turned = self._sections(grid.points)
+        share = turned @ (rates[:, None] * np.swapaxes(turned, 1, 2))
+        held = np.zeros_like(soft)
+        held[:, :3, :3], held[:, 3:, 3:] = along, bends
+        held *= grid.weights[:, None, None]
+        bent = soft[:, 3:] @ forces
+        acting = share @ np.concatenate((forces[:, :3], bent), axis=1)
+        return np.asarray(np.einsum("pik,pil->kl", acting, held @ acting, optimize=True))
 
     def forces(self, x: FloatArray) -> FloatArray:
         """Return forces and moments of the functions at `x`, (places, 6, n)."""
@@ -284,7 +282,7 @@ class StrainFunctions:
             C, whole[: x.size] = float(self.theory.trapeze) * A, 0.0
             A[1:, 1:] = 0.0
         center[1:, x.size :], A[2, 2, x.size :] = centers.T, inertias
-        air = blade.damping[2]
+        air = blade.damping.external
         return Masses(
             places=places,
             mass=np.concatenate((weights * mass, lumped)),

@@ -104,8 +104,9 @@ class Continuum(Kinematics):
         phi = self._across.once(x)
         self._rotary_mass, self._rotary_force = (phi.T * dj) @ phi, phi.T @ dj
         self._turns = bool(dj.any())
-        bend, stretch, air = blade.damping
-        self._viscosity = np.repeat([bend, stretch, 0.0], [bending, axial, self.shear])
+        damping, air = blade.damping, blade.damping.external
+        rates = [damping.bending, damping.axial, damping.shear]
+        self._viscosity = np.repeat(rates, [bending, axial, self.shear])
         along, dx = blade.quadrature(count)
         integral = self.grid.integral(along)
         self._drag = air * integral.T @ (dx[:, None] * integral) if air else None

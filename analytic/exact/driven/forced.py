@@ -167,7 +167,7 @@ def forced_response(
     functions = whole_number("functions", functions, least=4, most=MOST_FUNCTIONS)
     model = continuum_of(blade, theory, functions, functions // 2, loads=(load,))
     steady = rotating_blade(blade, highest, model, gauge)
-    if not any(blade.unit.damping):
+    if not blade.damping:
         _require_no_resonance(blade, None if by_speed else highest, theory, values)
     # Deflections are told from the steady state, at changing speeds from that at rest.
     rate = 0.0 if by_speed else steady.rate
@@ -181,7 +181,7 @@ def forced_response(
             response = _packed(blade, load, theory, failed.last)
             nu, a = response.frequency[-1], response.amplitude[-1]
             last = f" after {nu:.6g} rad/s, where |q|/L is {a:.4g}"
-        free = model.twists and not blade.damping.bending
+        free = model.twists and not blade.damping.of_strains[3]
         more = "damping of the bending, without which torsion has none," if free else "more damping"
         remedy = failed.remedy or f"take {more} or a smaller load"
         raise ResponseNotReachedError(

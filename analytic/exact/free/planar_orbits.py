@@ -39,7 +39,7 @@ class PlanarOrbits(ModePath):
     @property
     def damped(self) -> bool:
         """Whether anything resists what leaves the plane."""
-        return bool(self.damping) or any(self.blade.unit.damping)
+        return bool(self.damping) or bool(self.blade.damping)
 
     @property
     def least(self) -> float:

@@ -120,7 +120,7 @@ class FlapTorsion:
         kappa, e, change = model.bent(q)
         tension = model.tension(q, q_dot, q_ddot, by)
         bending, kappa_dot = evaluated(self.unit.bending, model.points), model.bent(q_dot)[0]
-        moment = model.weights * bending * (kappa + model.blade.damping[0] * kappa_dot)
+        moment = model.weights * bending * (kappa + model.blade.damping.bending * kappa_dot)
         flap = model.weights * of.flap
         excess = moment - flap * kappa
         stretch = 1.0 / (1.0 + e)
@@ -156,7 +156,8 @@ class FlapTorsion:
         self, planar: SteadyBlade, q: FloatArray, q_dot: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Return the blade's own damping, and the stiffness that it adds, (samples, n, n) each."""
-        model, (viscosity, _, air) = planar.model, self.unit.damping
+        model, damped = planar.model, self.unit.damping
+        *_, twisting, across, _ = damped.of_strains
         of, (strain, once, strain_t, once_t, upto) = self._on(model)
         (kappa, e, change), (kappa_dot, e_dot, change_dot) = model.bent(q), model.bent(q_dot)
         s = 1.0 / (1.0 + e)
@@ -167,24 +168,26 @@ class FlapTorsion:
         flap_dot -= _times(change_dot * s**2 + 2.0 * change * s * s_dot, once)
         curved = _times(kappa, angle)
         curved_dot = _times(kappa_dot, angle) + _times(kappa, angle_dot)
-        viscous = viscosity * model.weights
         if self.twists:
             flap = np.concatenate((flap, -_times(kappa, once_t)), axis=2)
             flap_dot = np.concatenate((flap_dot, -_times(kappa_dot, once_t)), axis=2)
             along = np.broadcast_to(strain_t, curved.shape)
             torsion = np.concatenate((curved, along), axis=2)
             torsion_dot = np.concatenate((curved_dot, 0.0 * along), axis=2)
-            damping = _form(torsion, viscous * of.torsion, torsion)
-            stiffness = _form(torsion, viscous * of.torsion, torsion_dot)
+            viscous = twisting * model.weights * of.torsion
+            damping = _form(torsion, viscous, torsion)
+            stiffness = _form(torsion, viscous, torsion_dot)
         else:
             twist, twist_dot = -upto @ curved, -upto @ curved_dot
             flap_dot = flap_dot - _times(kappa_dot, twist) - _times(kappa, twist_dot)
             flap = flap - _times(kappa, twist)
             damping, stiffness = np.zeros((2, len(q), self.size, self.size))
         w = self.shapes.twice(model.points)
-        damping[:, : self.functions, : self.functions] += air * _form(w, model.weights, w)
-        damping += _form(flap, viscous * of.flap, flap)
-        return damping, stiffness + _form(flap, viscous * of.flap, flap_dot)
+        dragged = damped.external * _form(w, model.weights, w)
+        damping[:, : self.functions, : self.functions] += dragged
+        viscous = across * model.weights * of.flap
+        damping += _form(flap, viscous, flap)
+        return damping, stiffness + _form(flap, viscous, flap_dot)
 
 
 def with_points_for(planar: Any, functions: int) -> Any:
@@ -225,7 +228,7 @@ class OutOfPlaneMotion:
         across, planar, state = self.across, self.orbit.system, self.orbit.coordinates(phase)
         K = across.stiffness(planar, *state, *self.orbit.drive(phase))
         C = np.zeros_like(K) if self.modal is None else np.broadcast_to(self.modal, K.shape)
-        if any(across.unit.damping):
+        if across.unit.damping:
             damping, stiffening = across.resistance(planar, *state[:2])
             K, C = K + stiffening, C + damping
         return Tangent(np.zeros(K.shape[:2]), K, C, np.broadcast_to(across.mass, K.shape))
@@ -234,7 +237,7 @@ class OutOfPlaneMotion:
     def reversible(self) -> bool:
         """Whether the orbit is free and nothing damps what leaves its plane."""
         driven = self.orbit.system.driven
-        return self.modal is None and not driven and not any(self.across.unit.damping)
+        return self.modal is None and not driven and not self.across.unit.damping
 
     @property
     def signs(self) -> FloatArray:

@@ -66,12 +66,13 @@ def require_modeled(blade: Blade, model: Formulation, frame: Frame = "inertial")
             f"element {model.name!r} is for the uniform beam at the axis, and this blade has "
             f"{unit.differences}: take {_any_of(lambda cls: cls.takes_blades)}"
         )
-    bending, axial, _ = unit.damping
-    if (bending or axial) and not model.takes_viscosity:
+    if any(unit.damping.of_strains) and not model.takes_viscosity:
         raise ValueError(
-            f"element {model.name!r} has no viscosity, and this blade has bending or axial "
-            f"damping: take {_any_of(lambda cls: cls.takes_viscosity)}, or external damping"
+            f"element {model.name!r} has no viscosity, and this blade has damping of its strains: "
+            f"take {_any_of(lambda cls: cls.takes_viscosity)}, or external damping"
         )
+    if unit.damping.shear:
+        raise ValueError("no element has damping of shear: leave shear out of Damping")
 
 
 def require_joint(model: Formulation) -> None:

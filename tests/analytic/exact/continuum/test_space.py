@@ -14,9 +14,10 @@ from analytic.exact.continuum.space import SpaceContinuum
 from analytic.exact.continuum.state import Driven
 from analytic.exact.continuum.unit import SpaceUnit
 from analytic.exact.continuum.vectors import Frames
-from analytic.parts import Line
+from analytic.parts import Damping, Line
 from analytic.theory import Theory
 
+DAMPING = Damping(bending=0.1, axial=0.05, external=0.2)
 ALL = SpaceUnit(
     hub=0.3, flap=0.2, torsion=0.1, angle=0.3, bending=(1.0, -0.4),
     masses=((0.6, 0.2, 0.01), (1.0, 0.3, 0.02)), body_offsets=((0.0, 0.1), (0.05, 0.02)),
@@ -46,7 +47,7 @@ def states(model, size, samples=2, seed=0):
 def test_in_the_plane_it_is_the_planar_beam_in_its_coordinates(shear):
     """Residual and tangent, of a blade on a hub with a tip mass, drag and viscosity."""
     blade = SpaceUnit(
-        hub=0.4, masses=((1.0, 0.3, 0.02),), body_offsets=((0.0, 0.0),), damping=(0.1, 0.05, 0.2),
+        hub=0.4, masses=((1.0, 0.3, 0.02),), body_offsets=((0.0, 0.0),), damping=DAMPING,
         flap=0.3, torsion=0.2,
     )  # fmt: skip
     planar = Continuum(1e-2, 8, 6, blade=blade, shear=shear)
@@ -105,7 +106,7 @@ def test_loads_of_the_sections_are_those_of_their_strains():
 
 @pytest.mark.parametrize("theory", THEORIES)
 def test_the_tangent_is_the_derivative_of_the_residual(theory):
-    model = space(replace(ALL, damping=(0.1, 0.05, 0.2)), theory)
+    model = space(replace(ALL, damping=DAMPING), theory)
     x, rng = states(model, 0.1), np.random.default_rng(3)
     w, w_dot = rng.normal(size=(2, 2))
     push = rng.normal(size=(3, 3, 2, model.points.size)) * model.weights

@@ -112,7 +112,7 @@ def test_it_is_the_tangent_of_the_blade_in_space(section, a, theory, damping, di
 def test_about_a_damped_response_it_is_the_tangent_of_the_blade_in_space():
     """With the viscous moment of the response, a third of its elastic one; a = 0.26."""
     blade, load = BEAM.with_section_out_of_plane(**asdict(STRIP)), SpeedRipple(amplitude=0.2)
-    blade = blade.with_damping(Damping(bending=0.1))
+    blade = blade.with_damping(Damping(bending=0.1, out_of_plane=0.05, torsion=0.2))
     orbit = forced_response(blade, 2.0, load, [3.0, 3.1]).nondimensional[0]
     known = grown(blade, orbit, 16, 48, Theory())
     model = space_continuum(blade, Theory(), max(16, orbit.system.model.bending))
