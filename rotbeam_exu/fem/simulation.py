@@ -192,7 +192,7 @@ def _start(
     initial_state: Callable[[FloatArray], BladeState] | None,
 ) -> tuple[FloatArray, FloatArray] | None:
     """Return coordinates and velocities in the frame of the clamp, unless it starts straight."""
-    turning = getattr(case.spin_up, "start", 0.0)
+    turning = case.ramp_time and getattr(case.spin_up, "start", 0.0)
     if initial_state is None and turning:
         initial_state = partial(stretched_state, case.blade, turning)
     if initial_state is None:

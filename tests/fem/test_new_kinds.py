@@ -200,7 +200,7 @@ def test_all_numbers_of_a_load_have_their_units(beam):
             "a half told of 1 N has along of un",
         ),
         (Moment(amplitude=1.0), TypeError, "acts on 'sections': let it be one of mass, length"),
-        (Heave(amplitude=1.0), ValueError, "in the plane of rotation, which Heave.* leaves"),
+        (Heave(amplitude=1.0), ValueError, r"leave the plane.*with_section_out_of_plane\(bend"),
         (Gust(amplitude=1.0), ValueError, "a gust of 1 N/m goes by the angle of the clamp as well"),
     ],
 )
