@@ -69,13 +69,14 @@ def forces_caused(steady: Any, count: int) -> FloatArray:
     return np.concatenate(parts, axis=2)
 
 
-def beside(functions: Any, caused: FloatArray | None) -> Answers:
+def beside(functions: Any, caused: FloatArray | None, seen: float | None = None) -> Answers:
     """Return what `StrainFunctions` are made of beside first polynomials, on a finer grid.
 
     Answers so far; polynomials of higher degrees, a third more; and the forces caused, (points, 6,
     count), of answers on the functions. All but the first are orthonormal in flexibility to those
-    before. Strains that differ from theirs by less than 1e-6 are left out. Components that go
-    without others make functions of their own.
+    before. Strains that differ from theirs by less than 1e-6 are left out; where `seen` is given
+    those by less than it, and polynomials, of which a motion lacks none. Components that go without
+    others make functions of their own.
     """
     unit, before = functions.blade, functions.reach
     reach = tuple(n + max(n // 3, 1) for n in before)
@@ -83,7 +84,7 @@ def beside(functions: Any, caused: FloatArray | None) -> Answers:
     higher = replace(functions, bending=bending, torsion=torsion, axial=axial, answers=None)
     grid = higher.grid
     x = grid.points
-    added = [higher.forces(x)]
+    added = [higher.forces(x)] if seen is None else []
     if caused is not None:
         added.append(_at(x, functions.grid, caused))
     sets = [set(range(6))]
@@ -103,7 +104,7 @@ def beside(functions: Any, caused: FloatArray | None) -> Answers:
             for _ in range(2):  # the second time against round-off
                 part = part - known @ np.linalg.solve(stiffness, _work(known, soft @ part))
             sizes, turns = np.linalg.eigh(_work(part, soft @ part))
-            kept = sizes > _SEEN**2
+            kept = sizes > (seen or _SEEN) ** 2
             new.append(part @ (turns[:, kept] / np.sqrt(sizes[kept])))
             odd.append(np.tile([[rows[0] in _TURNED], [rows[0] in _REFLECTED]], kept.sum()))
         parts += new

@@ -110,10 +110,12 @@ class StrainFunctions:
         counts = self.bending, self.torsion, self.axial
         return counts if self.answers is None else self.answers.reach
 
-    def refined(self, caused: FloatArray | None = None) -> StrainFunctions:
+    def refined(
+        self, caused: FloatArray | None = None, seen: float | None = None
+    ) -> StrainFunctions:
         """Return half as many functions again, one more at least; of a table see `beside`."""
         if self.blade.answers:
-            return replace(self, answers=beside(self, caused))
+            return replace(self, answers=beside(self, caused, seen))
         bending, torsion, axial = (
             n + max(n // 2, 1) for n in (self.bending, self.torsion, self.axial)
         )

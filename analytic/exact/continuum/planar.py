@@ -363,7 +363,7 @@ class Continuum(Kinematics):
         del component, mirror
         return self.odd
 
-    def refined(self, caused: FloatArray | None = None) -> Continuum:
+    def refined(self, *caused: object) -> Continuum:
         """Return the discretization with half as many functions again, the same each time."""
         del caused
         panels = self.blade.panel_count

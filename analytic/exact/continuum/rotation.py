@@ -249,8 +249,11 @@ class SteadyBlade:
 
     def resolving(self, modes: int) -> Self:
         """Return the blade on more functions, on a table with the answers of the lowest modes."""
-        caused = forces_caused(self, modes) if self.model.answers else None
-        finer = replace(self, model=self.model.refined(caused))
+        return self.onto(forces_caused(self, modes) if self.model.answers else None)
+
+    def onto(self, caused: FloatArray | None, seen: float | None = None) -> Self:
+        """Return the blade on more functions, on a table with the forces `caused` by answers."""
+        finer = replace(self, model=self.model.refined(caused, seen))
         return replace(finer, near=self.lifted(self.equilibrium, finer))
 
     @cached_property

@@ -319,9 +319,11 @@ class SpaceContinuum(SpaceKinematics):
         rates: FloatArray = np.linalg.lstsq(self.strains.K[1], bending)[0]
         return rates
 
-    def refined(self, caused: FloatArray | None = None) -> SpaceContinuum:
+    def refined(
+        self, caused: FloatArray | None = None, seen: float | None = None
+    ) -> SpaceContinuum:
         """Return the discretization on more functions; of a table also of the forces `caused`."""
-        return SpaceContinuum(self.functions.refined(caused))
+        return SpaceContinuum(self.functions.refined(caused, seen))
 
     @property
     def answers(self) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
@@ -23,7 +23,7 @@ from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ...warning import warn
 from ..continuum.rotation import SteadyBlade, continuum_of, finer_blades, rotating_blade
-from ..continuum.state import BladeState, SectionLoads, in_newtons, state_of
+from ..continuum.state import BladeState, Driven, SectionLoads, in_newtons, state_of
 from .start import Start, checked_start, started
 from .transient import BladeMotion, drive, grid_of, integrated
 
@@ -31,12 +31,14 @@ _TOLERANCE = 1e-8
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
 _MANY_CELLS = 16
+_INSTANTS = 64  # of a motion, whose forces make functions of a table
+_LEFT = 0.1  # of the tolerance, what functions leave of strains
 _MODES = 3  # by which functions of a table are chosen
 _STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
 _SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
 _WITHIN = 0.2  # of the tolerance in space, for the first steps
-_FINER, _AGAIN = 20.0, 3.0  # times smaller for the second, and for each after it
+_FINER, _AGAIN = 5.0, 3.0  # times smaller for the second, and for each after it
 _TAIL = 5.0  # of it, for the last coordinates of what is resolved
 _FINEST = 1e-11  # the least tolerance that round-off leaves in reach
 _ROUND_OFF = 1e-13  # of the tip's position over the length
@@ -215,8 +217,10 @@ def spin_up_response(
     coarser, error, size = None, math.inf, 0.0
     within = _WITHIN * tolerance if controlled else None
     for level in range(_REFINEMENTS):
-        if level:
-            steady = steady.refined() if by_answers else at_fastest(functions)
+        if level and by_answers:
+            steady = _resolving(steady, coarser, partial(drive, blade, rotation, loads), tolerance)
+        elif level:
+            steady = at_fastest(functions)
         model = steady.model
         q, q_dot = started(blade, model, spin_up.start, start, loads, kick, bent)
         if callable(start) and controlled and not (level or table or by_answers):
@@ -261,7 +265,7 @@ def spin_up_response(
         axis=blade.length * finer.axis,
         twist=finer.twist,
         error=error,
-        steps=finer.steps,
+        steps=finer.ends.size,
         functions=model.bending,
         _model=model,
         _state=finer.state,
@@ -300,6 +304,26 @@ def _settled(steady: SteadyBlade, tolerance: float) -> SteadyBlade:
         lambda one: one, finer_blades(steady), tolerance, _numbers, "", "", left=math.inf
     )
     return found
+
+
+def _resolving(
+    steady: SteadyBlade,
+    motion: BladeMotion | None,
+    drive_of: Callable[[Any], Callable[[FloatArray], Driven]],
+    tolerance: float,
+) -> SteadyBlade:
+    """Return a table's blade on functions from the forces that its motion causes, or its modes.
+
+    Forces of modes alone, taken again and again, are slow to make functions for a motion.
+    """
+    if motion is None or not motion.ends.size:
+        return steady.refined()
+    model: Any = steady.model
+    few = np.unique(np.linspace(0, motion.ends.size - 1, _INSTANTS).astype(int))
+    q, *rates = motion.passed[:, few]
+    caused = model.forces_caused(q, *rates, drive_of(model)(motion.ends[few]))
+    energy = np.sum(q * (q @ model.functions.stiffness), axis=1).max()
+    return steady.onto(caused / math.sqrt(energy or 1.0), _LEFT * tolerance)
 
 
 def _numbers(steady: SteadyBlade) -> FloatArray:

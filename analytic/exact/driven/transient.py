@@ -45,7 +45,8 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
 class BladeMotion(NamedTuple):
     """Deflection and rate, twist, places of the tip (times, 3) and points (times, points, 3).
 
-    Without units, in the frame of the clamp. `state` has coordinates and rates, (3, times, n).
+    Without units, in the frame of the clamp. `state` has coordinates, rates and accelerations,
+    (3, times, n), and `passed` those at the `ends` of the steps [s].
     """
 
     q: FloatArray
@@ -54,7 +55,8 @@ class BladeMotion(NamedTuple):
     tip: FloatArray
     axis: FloatArray
     state: FloatArray
-    steps: int
+    ends: FloatArray
+    passed: FloatArray
 
 
 def drive(
@@ -97,7 +99,8 @@ def integrated(
     driven_at = drive(blade, rotation, loads, model)
     q_dot, acceleration = rates + np.zeros(model.size), np.zeros((_STAGES, model.size))
     state = np.repeat(np.stack((q, q_dot, 0.0 * q))[:, None], time.size, axis=1)
-    solver, steps, previous = _Solver(model, method), 0, 0.0
+    solver, previous = _Solver(model, method), 0.0
+    passed: dict[float, FloatArray] = {}
     control = None
     if tolerance is not None:
         forces = driven_at(np.linspace(grid[0], grid[-1], _INSTANTS))
@@ -129,7 +132,8 @@ def integrated(
         if control is not None and not control.passes(end - begin, h, at_nodes, found, method):
             ahead.append((begin, end))
             continue
-        acceleration, previous, steps = found.z, h, steps + 1
+        acceleration, previous = found.z, h
+        passed[end] = np.stack([part[-1] for part in at_nodes])
         before = -np.inf if begin == grid[0] else begin  # the first step has its start as well
         inside = slice(*np.searchsorted(time, (before, end), side="right"))
         at = (time[inside] - begin) / (end - begin)
@@ -152,7 +156,10 @@ def integrated(
         for q, q_dot, _ in (state[:, few] for few in few_at_once(time.size))
     ]
     deflection, rate, twist, places = map(np.concatenate, zip(*parts, strict=True))
-    return BladeMotion(deflection, rate, twist, places[:, -1], places[:, :-1], state, steps)
+    return BladeMotion(
+        deflection, rate, twist, places[:, -1], places[:, :-1], state,
+        np.array(list(passed)), np.reshape(list(passed.values()), (-1, 3, q.size)).swapaxes(0, 1),
+    )  # fmt: skip
 
 
 class _Solver:

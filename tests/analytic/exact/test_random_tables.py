@@ -69,12 +69,15 @@ def test_errors_are_not_larger_than_told(sigma, theory, by_panels):
 
 
 @pytest.mark.slow
-def test_the_error_of_a_spin_up_is_not_larger_than_told(by_panels):
-    blade, motion, times = table(3, 0.03, 6), SpinUp(omega=3.0, ramp_time=2.0), [1.0, 2.0]
-    found = spin_up_response(blade, motion, times, tolerance=1e-3)
+@pytest.mark.parametrize(("count", "tolerance"), [(6, 1e-3), (6, 1e-5), (10, 1e-6)])
+def test_the_error_of_a_spin_up_is_not_larger_than_told(by_panels, count, tolerance):
+    """By functions from the motion's own forces; those of modes alone do not settle to 1e-6."""
+    blade, motion, times = table(3, 0.03, count), SpinUp(omega=3.0, ramp_time=2.0), [1.0, 2.0]
+    found = spin_up_response(blade, motion, times, tolerance=tolerance)
+    assert found.error < tolerance
     by_panels()
-    known = spin_up_response(blade, motion, times, tolerance=1e-4)
-    assert known._model.blade.panel_count == 5
+    known = spin_up_response(blade, motion, times, tolerance=0.1 * tolerance)
+    assert known._model.blade.panel_count == count - 1
     size = np.abs(known.tip[:, 1:]).max()
     for one, other in ((found.tip, known.tip), (found.twist, known.twist)):
         assert np.abs(one - other).max() < (found.error + known.error) * size
