@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, get_args
+from typing import TYPE_CHECKING, Annotated, Any, get_args
 
 import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic import Blade, Theory
+from analytic import Blade
 from analytic.arrays import FloatArray, evaluated, in_units
 from analytic.station_section import STIFFNESSES, Interpolation, StationSection
 
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 _COUNT = 6  # modes
 
 
-@uses("theory", "motion.omega")
+@uses("theory", "tolerance", "motion.omega")
 def blade(
     request: Request,
     *,
@@ -53,20 +54,21 @@ def blade(
     $ rotbeam blade --config beam.toml
     $ rotbeam blade --config x_BeamDyn.dat --out blade.toml
     """
-    blade, theory, omega = request.blade, request.theory, request.values.get("omega", 0.0)
+    blade, omega = request.blade, request.values.get("omega", 0.0)
+    how: dict[str, Any] = {"theory": request.theory, "tolerance": request.tolerance}
     if out is not None:
         _write(request, out, force=force)
         return
     with bar("modes"):
-        rest = analytic.linear_modes(blade, 0.0, _COUNT, theory=theory)
+        rest = analytic.linear_modes(blade, 0.0, _COUNT, **how)
         turning = {}
         if omega:
-            modes = analytic.linear_modes(blade, omega, _COUNT, theory=theory)
+            modes = analytic.linear_modes(blade, omega, _COUNT, **how)
             turning[f"at {omega:g} rad/s [Hz]"] = _named(modes, rest) / (2.0 * np.pi)
         section, others = blade.section, {}
         if isinstance(section, StationSection):
             (way,) = set(get_args(Interpolation)) - {section.interpolation}
-            others[way] = _changes(blade, section, way, theory, rest)
+            others[way] = _changes(blade, section, way, rest, how)
     place, mass = blade.unit.inertia(32)
     moment = float(place @ mass) * blade.mass_per_length * blade.length**2
     print_line("length", f"{blade.length:g} m, on a hub of {blade.hub_radius:g} m")
@@ -82,7 +84,7 @@ def blade(
             **{title: formatted(values, ".6f") for title, values in turning.items()},
             **{f'"{way}" [%]': formatted(changes, "+.4f") for way, changes in others.items()},
         },
-        title=f"Frequencies, {theory}",
+        title=f"Frequencies, {request.theory}",
     )
     for way, changes in others.items():
         print_note(
@@ -106,12 +108,16 @@ def _write(request: Request, target: Path, *, force: bool) -> None:
 
 
 def _changes(
-    blade: Blade, section: StationSection, way: Interpolation, theory: Theory, rest: LinearModes
+    blade: Blade,
+    section: StationSection,
+    way: Interpolation,
+    rest: LinearModes,
+    how: Mapping[str, Any],
 ) -> FloatArray:
     """Return the relative changes of frequencies [%] with the other interpolation."""
     other = replace(blade, section=replace(section, interpolation=way))
     try:
-        modes = analytic.linear_modes(other, 0.0, _COUNT, theory=theory)
+        modes = analytic.linear_modes(other, 0.0, _COUNT, **how)
     except ValueError:  # it did not settle
         return np.full_like(rest.frequencies, np.nan)
     return 100.0 * (_named(modes, rest) / rest.frequencies - 1.0)

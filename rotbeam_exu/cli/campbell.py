@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from analytic.exact.linear.campbell import Campbell
 
 
-@uses("section", "theory", "motion.omega")
+@uses("section", "theory", "tolerance", "motion.omega")
 def campbell(
     request: Request,
     *,
@@ -32,7 +32,6 @@ def campbell(
     points: Whole = 13,
     count: Whole = 3,
     orders: Whole = 6,
-    tolerance: Number | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: Number | None = None,
     force: Flag = False,
@@ -55,9 +54,6 @@ def campbell(
         Number of modes, those lowest at the first speed.
     orders
         Lines k ω up to this k.
-    tolerance
-        Largest relative error of the frequencies; unless given 1e-9, and 1e-6 for a table of
-        stations.
     out
         Folder for netCDF, CSV and the figure; without it none is written.
     frequency_max
@@ -80,7 +76,7 @@ def campbell(
     speeds = np.linspace(*ends, whole_number("points", points, least=2))
     with bar("modes"):
         diagram = analytic.campbell(
-            blade, speeds, count, orders, theory=request.theory, tolerance=tolerance
+            blade, speeds, count, orders, theory=request.theory, tolerance=request.tolerance
         )
     if out is None:
         _print(diagram)

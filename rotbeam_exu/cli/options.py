@@ -163,6 +163,11 @@ OPTIONS = {
     "step": _option(Number, "Step size of the integrator [s]."),
     "duration": _option(Number, "End of the motion [s]."),
     "frame": _option(Frame, "Coordinates of the model, inertial unless given."),
+    "tolerance": _option(
+        Number,
+        "Largest error of the exact blade: of frequencies, relative; of the tip's place over the "
+        "largest q. Unless given 1e-9 and 1e-8, and 1e-6 for a table of stations.",
+    ),
     "section": _option(
         Literal[tuple(_shapes())], "The section out of the plane; by default that of the file."
     ),

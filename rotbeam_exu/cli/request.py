@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from analytic import Beam, Blade, Theory
+from analytic.input_checks import positive
 from analytic.loads import Load
 from analytic.warning import warn
 
@@ -83,6 +84,12 @@ class Request:
                 "give the rotation speed in rad/s with --omega, or as omega in [motion] of --config"
             )
         return float(self.values["omega"])
+
+    @property
+    def tolerance(self) -> float | None:
+        """Largest error of the exact blade; None is that of the function."""
+        given = self.values.get("tolerance")
+        return None if given is None else positive("tolerance", given)
 
     @property
     def motion(self) -> ChosenMotion:
@@ -193,15 +200,15 @@ def _theory(pairs: Sequence[str]) -> dict[str, Any]:
 def _configured(config: Path | None, uses: Sequence[str]) -> RunFile:
     """Return the tables and keys of a file that a command uses; without one, the paper's beam.
 
-    A table of which the command uses nothing is refused; a warning names the other keys of a table
-    that it uses.
+    Loads or a theory of which the command uses nothing are refused; a warning names other keys that
+    it does not use.
     """
     file = RunFile(blade=Beam.reference()) if config is None else load_run_file(config)
     kept: dict[str, Any] = {}
     for name in (one.name for one in fields(file) if one.name not in ("blade", *uses)):
         given = getattr(file, name)
         keys = [use.removeprefix(f"{name}.") for use in uses if use.startswith(f"{name}.")]
-        if given and not keys:
+        if given and not keys and name in ("loads", "theory"):
             title = f"[{name}]" if isinstance(given, Mapping) else f"[[{name}]]"
             raise ValueError(
                 f"{config} has {title}, of which this command uses nothing: leave it out"

@@ -8,14 +8,14 @@ import numpy as np
 from cyclopts import Parameter
 
 import analytic
-from analytic.input_checks import positive, whole_number
+from analytic.input_checks import whole_number
 from analytic.warning import warn
 
 from ..lazily import xr
 from ..runs.attributes import loads_attributes, start_attributes
 from ..runs.check import energy_drift
 from .job import Flag, Results
-from .options import NoFigure, Number, Whole
+from .options import NoFigure, Whole
 from .output import bar, print_line
 from .request import Request, uses
 
@@ -139,13 +139,12 @@ def _print_results(data: xr.Dataset, steady: SteadyOscillation, assessment: Asse
     print_line("verdict", assessment.sentence)
 
 
-@uses("speed", "ramp_time", "duration", "theory", "loads")
+@uses("speed", "ramp_time", "duration", "tolerance", "theory", "loads")
 def reference(
     request: Request,
     *,
     start: Literal["straight", "steady"] = "straight",
     samples: Whole = 1501,
-    tolerance: Number = 1e-8,
     results: Results = Results(),
 ) -> None:
     """Write the exact spin-up as netCDF and CSV.
@@ -159,21 +158,19 @@ def reference(
         Straight, or in the steady state under the loads as they are at t = 0.
     samples
         Number of times that are written, evenly spaced from 0.
-    tolerance
-        Largest error of the tip's position over the largest of q.
 
     Examples
     --------
     $ rotbeam reference
     $ rotbeam reference --omega 4 --ramp-time 2.5 --duration 8 --samples 801 -o exact
     """
-    motion, tolerance = request.motion, positive("tolerance", tolerance)
+    motion, tolerance = request.motion, request.tolerance
     samples = whole_number("samples", samples, least=2)
     spin_up = motion.spin_up
     inputs = request.inputs(
         omega=spin_up.omega, ramp_time=spin_up.ramp_time, duration=motion.duration,
-        samples=samples, tolerance=tolerance, **loads_attributes(request.loads),
-        **start_attributes(start),
+        samples=samples, **({"tolerance": tolerance} if tolerance else {}),
+        **loads_attributes(request.loads), **start_attributes(start),
     )  # fmt: skip
     times = np.linspace(0.0, motion.duration, samples)
 

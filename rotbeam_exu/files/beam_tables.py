@@ -52,8 +52,12 @@ _BLADE = {
     "line": table_of(Line),
 }
 NUMERICS = Table(
-    {}, {"element": Element, "elements": int, "step": float, "duration": float, "frame": Frame}
-)
+    {},
+    {
+        "element": Element, "elements": int, "step": float, "duration": float, "frame": Frame,
+        "tolerance": float,
+    },
+)  # fmt: skip
 THEORY = table_of(Theory)
 _DOCUMENT = Table(
     {},

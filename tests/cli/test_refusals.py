@@ -60,7 +60,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
             "backbone --omega 1 --variant FrM --config ../stations.toml",
             ": leave the variants out",
         ),
-        ("explore --config ../motion.toml", "has [motion], of which this command uses nothing"),
+        ("explore --config ../load.toml", "has [[loads]], of which this command uses nothing"),
         ("run --tip-force 1", "with --load-frequency"),
         ("respond --to 2", "--from is missing. rotbeam respond --help explains it"),
         ("figure", "NUMBER is missing. rotbeam figure --help explains it"),

@@ -20,7 +20,7 @@ from rotbeam_exu.verification import verify
 TABLES = {
     "motion": "[motion]\nomega = 4\nramp_time = 2.5\n",
     "numerics": "[numerics]\nelement = 'cable'\nelements = 2\nstep = 0.01\nduration = 8\n"
-    "frame = 'rotating'\n",
+    "frame = 'rotating'\ntolerance = 1e-4\n",
     "theory": "[theory]\nextension = true\nshear = 0.3\nengesser = false\n"
     "rotary_inertia = true\ntrapeze = false\n",
     "loads": "[[loads]]\nkind = 'Gravity'\n",

@@ -249,7 +249,8 @@ class SteadyBlade:
 
     def resolving(self, modes: int) -> Self:
         """Return the blade on more functions, on a table with the answers of the lowest modes."""
-        return self.onto(forces_caused(self, modes) if self.model.answers else None)
+        free = self.unloaded(self.rate)
+        return self.onto(forces_caused(free, modes) if self.model.answers else None)
 
     def onto(self, caused: FloatArray | None, seen: float | None = None) -> Self:
         """Return the blade on more functions, on a table with the forces `caused` by answers."""

@@ -32,6 +32,7 @@ _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
 _MANY_CELLS = 16
 _INSTANTS = 64  # of a motion, whose forces make functions of a table
+_LEAST = 0.01  # of the tolerance, by which steps are chosen, that is ever told as an error
 _LEFT = 0.1  # of the tolerance, what functions leave of strains
 _MODES = 3  # by which functions of a table are chosen
 _STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
@@ -243,6 +244,7 @@ def spin_up_response(
         if coarser is not None:
             # At constant speed a blade at rest in its frame deflects by round-off.
             error, size = _change(coarser, finer, (not spin_up.ramp_time) * _ROUND_OFF / tolerance)
+            error = max(error, controlled * _LEAST * tolerance)
             if error <= tolerance:
                 break
         coarser = finer

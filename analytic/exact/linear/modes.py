@@ -27,6 +27,7 @@ from ..continuum.rotation import (
 from .families import FAMILIES, Family, LinearModes, mode_names, modes_of, places_of
 
 _SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
+_WHOLE = 1.25  # times the last change is an error that falls by 5 or more each time
 
 
 @one_thread
@@ -157,7 +158,7 @@ def _settled_modes(
         lambda steady: modes_of(blade, omega, theory, steady).lowest(count, only),
         finer_blades(first, finer),
         require_tolerance(tolerance, model.tolerance),
-        lambda modes: np.log(modes.frequencies),
+        lambda modes: _WHOLE * np.log(modes.frequencies),
         f"the frequencies at omega = {omega:g} rad/s, w_bar = ω/√(EI/mL³) = {first.rate:.4g}",
         "ask for fewer modes, or rotate slower",
     )
