@@ -212,14 +212,12 @@ def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
     else:
         lacks = orbit.invariant_drift > care.drift + orbit.invariant_noise
         left = f"the Jacobi integral drifting by {orbit.invariant_drift:.1e}"
-    if not lacks:
-        return None if meets_the_equations(orbit, care) else _on_more_functions(orbit, care)
-    last = orbit.harmonics >= care.harmonics
-    nearly = not orbit.system.driven and orbit.invariant_drift < _LARGE_DRIFT
-    if last and nearly and meets_the_equations(orbit, care):
-        return None
     larger = _on_more_harmonics(orbit, care.harmonics)
-    if last or _too_large(larger, care):
+    last = orbit.harmonics >= care.harmonics or _too_large(larger, care)
+    nearly = not orbit.system.driven and orbit.invariant_drift < _LARGE_DRIFT
+    if not lacks or (last and nearly):
+        return None if meets_the_equations(orbit, care) else _on_more_functions(orbit, care)
+    if last:
         raise NoOrbitError(f"{orbit.harmonics} harmonics leave {left}")
     return larger
 
@@ -230,7 +228,7 @@ def _on_more_harmonics(orbit: Orbit[S], most: int) -> Orbit[S]:
 
 
 def _on_more_functions(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S]:
-    larger = orbit.on(orbit.system.refined())
+    larger = orbit.on(orbit.finer)
     if larger.system.functions > min(care.functions, MOST_FUNCTIONS) or _too_large(larger, care):
         raise NoOrbitError(
             f"{orbit.system.functions} functions meet the equations of motion to "

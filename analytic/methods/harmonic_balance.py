@@ -203,7 +203,7 @@ def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> f
     if tangent is None or not tangent.fits(unknowns):
         tangent = LastTangent()
         tangent.factor(orbit)
-    finer = orbit.system.refined()
+    finer = orbit.finer
     kept = orbit.system.lifted(np.ones(orbit.system.size), finer) > 0.0
     moved, (peaks, weights) = orbit.on(finer), orbit.crests
     at, defect = orbit.period(fine=True), orbit.finer_defect

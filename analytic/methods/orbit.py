@@ -167,8 +167,15 @@ class Orbit(Generic[S]):
 
     @cached_property
     def finer_defect(self) -> FloatArray:
-        """`defect` in the refined system."""
-        return self.defect(self.system.refined())
+        """`defect` in the finer system."""
+        return self.defect(self.finer)
+
+    @cached_property
+    def finer(self) -> S:
+        """The system on more coordinates, which may be chosen by this motion."""
+        phase = self.period(fine=True).phase
+        finer: S = self.system.refined(*self._finely, *self.drive(phase))
+        return finer
 
     @cached_property
     def residual(self) -> float:

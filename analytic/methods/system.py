@@ -7,7 +7,8 @@ They are r(q, q̇, q̈) = 0 in n coordinates, or r(q, q̇, q̈, φ, Ω) = 0 unde
     driven                          whether a drive acts; else it is autonomous and conservative
     residual, tangent               r (samples, n) in units of q, and a `Tangent`
     odd                             coordinates that time reversal turns around, (n,), or None
-    refined(), lifted(q, finer)     itself on more coordinates, and the same states there
+    refined(*state), lifted(q, of)  itself on more coordinates, which may be chosen by states q, q̇,
+                                    q̈ and their drive, and the same states there
     gauge(q), gauge_rate(q, q̇),     the quantity whose peak is the amplitude (samples,), its rate,
     gauge_gradient(q)               and its derivatives (samples, n)
 

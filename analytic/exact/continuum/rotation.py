@@ -37,6 +37,7 @@ GAUGES = {"lag": 1, "flap": 2}
 Model = Continuum | SpaceContinuum
 _LARGEST_KICK = 0.1
 _MODES = 6  # whose answers a refinement adds
+_INSTANTS = 64  # of a motion, by whose forces functions are made
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
 
 
@@ -239,9 +240,16 @@ class SteadyBlade:
         """Return its derivatives to the coordinates, (samples, n)."""
         return np.asarray(self.model.tip_gradient(q)[:, self.component])
 
-    def refined(self) -> Self:
-        """Return the blade on more functions, the same each time."""
-        return self._finer
+    def refined(self, *state: Any) -> Self:
+        """Return the blade on more functions, the same each time, or by the states of a table."""
+        if not (state and self.model.answers):
+            return self._finer
+        few = slice(None, None, -(-len(state[0]) // _INSTANTS))
+        q, q_dot, q_ddot, *drive = (one[few] if np.ndim(one) else one for one in state)
+        caused = self.model.forces_caused(q, q_dot, q_ddot, self.by(*drive))
+        moved = q - q.mean(axis=0)
+        energy = float(np.sum(moved * (moved @ self.model.functions.stiffness), axis=1).max())
+        return self.onto(caused / math.sqrt(energy or 1.0))
 
     @cached_property
     def _finer(self) -> Self:

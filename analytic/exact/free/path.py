@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -86,13 +87,16 @@ class ModePath:
     def softening(self) -> tuple[float, float]:
         """Return λ_ω, extrapolated from the smallest orbits, and what the last of them changed.
 
-        From two, or three, as the discretization has it.
+        From two, or three, as the discretization has it and they are found.
         """
         near, far = self._softening(self.path.seed), self._softening(self.path.double)
         by_two = (4.0 * near - far) / 3.0
-        if self.model.softening_orbits == 2:
+        third = None
+        if self.model.softening_orbits > 2:
+            with suppress(NoOrbitError):
+                third = self._softening(self.path.at(3.0 * self.path.seed.amplitude))
+        if third is None:
             return by_two, abs(near - far) / 3.0
-        third = self._softening(self.path.at(3.0 * self.path.seed.amplitude))
         by_three = 1.5 * near - 0.6 * far + 0.1 * third
         return by_three, abs(by_three - by_two)
 

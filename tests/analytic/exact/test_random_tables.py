@@ -7,10 +7,14 @@ import pytest
 
 from analytic import (
     Blade,
+    Damping,
     RotbeamWarning,
     SpinUp,
     Theory,
+    TipForce,
+    forced_response,
     linear_modes,
+    periodic_orbits,
     spin_up_response,
     steady_state,
 )
@@ -81,6 +85,27 @@ def test_the_error_of_a_spin_up_is_not_larger_than_told(by_panels, count, tolera
     size = np.abs(known.tip[:, 1:]).max()
     for one, other in ((found.tip, known.tip), (found.twist, known.twist)):
         assert np.abs(one - other).max() < (found.error + known.error) * size
+
+
+@pytest.mark.slow
+def test_orbits_and_forced_responses_are_those_by_polynomials(by_panels):
+    """On functions from their own forces; amplitudes are known to 1e-6, frequencies as told."""
+    blade = table(3, 0.005, 5)
+    damped = blade.with_damping(Damping.from_ratio(blade, 1, 0.05))
+
+    def found():
+        push = TipForce(amplitude=0.01)
+        return (
+            periodic_orbits(blade, 2.0, [0.03]),
+            forced_response(damped, 2.0, push, [2.0, 2.2]).amplitude[[0, -1]],
+        )
+
+    orbits, amplitudes = found()
+    by_panels()
+    known, there = found()
+    error = orbits.frequency_error + known.frequency_error + 1e-10  # round-off
+    assert (np.abs(orbits.frequency / known.frequency - 1.0) < error).all()
+    np.testing.assert_allclose(amplitudes, there, rtol=5e-6)
 
 
 def test_fifty_stations_with_steps_of_three():

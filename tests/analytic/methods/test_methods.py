@@ -53,7 +53,7 @@ class Duffing:
         x, y = q.T
         return 0.5 * x**2 + 0.25 * x**4 + 4.65 * y**2 + x**2 * y
 
-    def refined(self):
+    def refined(self, *state):
         return self
 
     def lifted(self, q, finer):
