@@ -11,6 +11,7 @@ from .exact.free.stability_limit import stability_limit as stability_limit
 from .exact.linear.campbell import campbell as campbell
 from .exact.linear.modes import damping_ratios as damping_ratios
 from .exact.linear.modes import linear_modes as linear_modes
+from .exact.linear.state_space import state_space as state_space
 from .exact.linear.steady_state import steady_state as steady_state
 from .loads import DistributedForce as DistributedForce
 from .loads import Gravity as Gravity

@@ -20,6 +20,7 @@ from analytic.exact.continuum.state import SectionLoads
 from analytic.exact.driven.forced_orbits import ForcedResponse
 from analytic.exact.driven.response import SpinUpResponse
 from analytic.exact.free.orbits import Orbits
+from analytic.exact.linear.state_space import OUTPUTS, StateSpace
 from analytic.input_checks import shown
 from analytic.loads import Load, rippled
 from analytic.reduced.linear_frame import LinearResponse
@@ -173,6 +174,36 @@ def _(response: SpinUpResponse) -> xr.Dataset:
     )
     along = response.points
     return data.merge(shape_of(response.section_loads(along))) if along.size else data
+
+
+@_described.register
+def _(made: StateSpace) -> xr.Dataset:
+    """Return A and B over `state`, C and D over `station` and `output`, by states and inputs."""
+    states = np.arange(1, len(made.A) + 1)
+    units = "m, rad, N, N m"
+    return dataset(
+        {
+            "A": (("state", "by"), made.A, "rates of the states by states [1/s]"),
+            "B": (("state", "input"), made.B, "rates of the states by inputs [1/s]"),
+            "C": (("station", "output", "by"), made.C, f"outputs by states [{units}]"),
+            "D": (("station", "output", "input"), made.D, f"outputs by inputs [{units}]"),
+        },
+        {
+            "state": states,
+            "by": states,
+            "input": np.arange(1, len(made.inputs) + 1),
+            "station": (made.x, "distance from the clamp [m]"),
+            "output": list(OUTPUTS),
+        },
+        {
+            **blade_attributes(made.blade),
+            **theory_attributes(made.theory),
+            **loads_attributes(made.loads),
+            "inputs": loads_attributes(made.inputs)["loads"],
+            "omega": made.omega,
+            "error": made.error,
+        },
+    )
 
 
 @_described.register

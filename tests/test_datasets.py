@@ -61,6 +61,7 @@ MADE = {
     "BackboneCurve": lambda: analytic.backbone_curve(BEAM, 6.0, up_to=0.1),
     "LinearModes": lambda: analytic.linear_modes(BEAM, 6.0),
     "SteadyState": lambda: analytic.steady_state(TWISTED, 1.0),
+    "StateSpace": lambda: analytic.state_space(TWISTED, 1.0, [TipForce(amplitude=1.0)], modes=2),
     "LinearResponse": lambda: analytic.linear_response(BEAM, MOTION, TIMES),
     "QuietRamps": lambda: analytic.quiet_ramp_times(BEAM, 2.0, longest=4.4, tolerance=1e-3),
     "SteadyOscillation": oscillating,

@@ -37,7 +37,7 @@ GROUPS = (
     _group(
         "Linear vibration",
         "Small vibration about steady rotation.",
-        analytic="linear_modes campbell damping_ratios steady_state",
+        analytic="linear_modes campbell damping_ratios steady_state state_space",
         analytic__exact__linear__modes="LinearModes",
         analytic__exact__linear__campbell="Campbell Crossing",
     ),
