@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 import analytic
-from rotbeam_exu import comparison
+from rotbeam_exu import comparison, explorer
 from rotbeam_exu.cli import _COMMANDS, animate, app
 from rotbeam_exu.cli import request as room
 from rotbeam_exu.cli.job import Results
@@ -86,12 +86,13 @@ def test_a_command_uses_or_names_all_of_a_table(call, tmp_path, monkeypatch, com
     for place, name in (
         (Results, "job"), (analytic, "campbell"), (analytic, "reduced_model"),
         (animate, "spin_up_response"), (verify, "verify"), (comparison, "figure_14"),
+        (explorer, "explorer_data"),
     ):  # fmt: skip
         monkeypatch.setattr(place, name, stopped)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "run.toml").write_text(TABLES[table])
     arguments = REQUIRED.get(command, "").split()
-    if arguments and table == "theory":  # which comes after the speed that they need
+    if arguments and table in ("numerics", "theory"):  # which come after the speed that they need
         arguments += ["--omega", "4"]
     code, _, error = call(command, *arguments, "--config", "run.toml")
     if code == 2:
