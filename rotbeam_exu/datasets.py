@@ -155,7 +155,7 @@ def _(response: SpinUpResponse) -> xr.Dataset:
         "q_dot": (response.q_dot, "tip velocity q̇, Eq. 16 [m/s]"),
         **tip,
         "angle": (motion.angle(response.time), "rotation angle θ [rad]"),
-        **_root_loads(response),
+        **root_loads(response.section_loads([0.0])),
     }
     data = dataset(
         {name: ("time", *column) for name, column in columns.items()},
@@ -240,12 +240,11 @@ def _inputs(response: SpinUpResponse | LinearResponse) -> dict[str, object]:
     }
 
 
-def _root_loads(response: SpinUpResponse) -> dict[str, tuple[FloatArray, str]]:
-    """Return tension, shear forces and moments at the root with their labels.
+def root_loads(root: SectionLoads) -> dict[str, tuple[FloatArray, str]]:
+    """Return tension, shear forces and moments of the root's section with their labels.
 
     By the clamp's axes, as of a run, not by those of its section, which may be set.
     """
-    root = response.section_loads([0.0])
     kinds = ("force", "N", _FORCES, root.force), ("moment", "N m", _MOMENTS, root.moment)
     return {
         f"root_{kind}_{axis}": (column, f"{names[axis]} at the root [{unit}]")

@@ -12,8 +12,8 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import Blade
-from analytic.arrays import FloatArray, evaluated, in_units
-from analytic.station_section import STIFFNESSES, Interpolation, StationSection
+from analytic.arrays import FloatArray
+from analytic.station_section import Interpolation, StationSection
 
 from ..files.blade_toml import blade_toml
 from ..files.openfast import blade_file_of, write_beamdyn
@@ -131,23 +131,14 @@ def _named(modes: LinearModes, like: LinearModes) -> FloatArray:
 
 def _print_section(blade: Blade) -> None:
     """Print stiffness and mass at the root, at the tip, and their extremes."""
-    section = blade.section
-    if isinstance(section, StationSection):
-        print_line("stations", f"{len(section.x)}")
-        values = dict(zip(STIFFNESSES, section.stiffnesses.T, strict=True))
-        values["m"] = np.array(section.mass_per_length)[:, 1]
-    else:
-        x = np.linspace(0.0, 1.0, 257)
-        named = {"EA": "axial_stiffness", "EI": "bending_stiffness", "m": "mass_per_length"}
-        profiles = section.profiles()
-        values = {
-            name: evaluated(in_units(profiles[long], blade.length, 1.0), x)
-            for name, long in named.items()
-        }
-    units = {"E": "N m^2", "G": "N", "m": "kg/m"} | {"EA": "N", "GJ": "N m^2"}
+    from ..report.blade import sections_of
+
+    if isinstance(blade.section, StationSection):
+        print_line("stations", f"{len(blade.section.x)}")
+    values = sections_of(blade).data_vars
     print_columns(
         {
-            "section": [f"{name} [{units.get(name) or units[name[0]]}]" for name in values],
+            "section": [f"{name} [{of.attrs['units']}]" for name, of in values.items()],
             "root": [float(of[0]) for of in values.values()],
             "tip": [float(of[-1]) for of in values.values()],
             "least": [float(of.min()) for of in values.values()],

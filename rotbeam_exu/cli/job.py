@@ -120,6 +120,12 @@ class Results:
         print_written(written)
         return shown
 
+    def tables(self, name: str, data: xr.Dataset) -> list[Path]:
+        """Write a result as CSV alone, beside a page that shows it; return the files."""
+        target = Path(f"{self.out / name}.csv")
+        refuse_to_replace(data, target.with_suffix(".json"), force=self.force)
+        return save_tables(data, target)
+
 
 def refuse_to_replace(
     inputs: xr.Dataset | Mapping[str, object], target: Path, *, force: bool

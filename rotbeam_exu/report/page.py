@@ -10,6 +10,7 @@ import math
 import re
 from importlib import resources
 from importlib.util import find_spec
+from typing import Any
 
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
@@ -56,19 +57,14 @@ def report_page(record: Record) -> str:
     """Return the page as text."""
     judgement, stated = record.judgement, record.judgement.declaration
     orders = (stated.order, "mesh"), (stated.order_in_step, "step")
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.filters |= {"number": _number, "mark": _mark, "picture": _picture}
-    environment.tests["finite"] = math.isfinite
-    template = resources.files(__package__).joinpath("template.html").read_text(encoding="utf-8")
     figures: dict[str, list[tuple[str, str]]] = {}
     if _DRAWS:
         # matplotlib takes longer to import than a judgement without a report.
         from ..figures.judgement import judged_figures  # noqa: PLC0415
 
         figures = {name: list(judged_figures(name, judgement)) for name in judgement.findings}
-    return environment.from_string(template).render(
+    return rendered(
+        "template.html",
         title=f"{TITLE}: {record.name}",
         record=record,
         versions=versions(),
@@ -90,6 +86,20 @@ def report_page(record: Record) -> str:
         latex=latex_table(record),
         json=json.dumps(document(record), indent=1, ensure_ascii=False),
     )
+
+
+def rendered(name: str, **content: Any) -> str:
+    """Return a page from one of the templates here; its text is escaped."""
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters |= {"number": _number, "mark": _mark, "picture": _picture}
+    environment.tests["finite"] = math.isfinite
+    template, style = (
+        resources.files(__package__).joinpath(one).read_text(encoding="utf-8")
+        for one in (name, "style.css")
+    )
+    return environment.from_string(template).render(style=Markup(style), **content)
 
 
 def _number(value: float, sign: str = "+") -> Markup:

@@ -28,6 +28,7 @@ TABLES = {
 REQUIRED = {
     "backbone": "--exact",
     "respond": "--from 3 --to 4 --tip-force 1 --damping-ratio 0.1", "stability": "--section tube",
+    "report": "-o out",
 }  # fmt: skip
 COMMANDS = [
     name
