@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -49,6 +49,7 @@ class Part:
     Attributes
     ----------
     title, text : str
+        The title is given by `blade_parts`.
     tables : sequence of mappings
         Of columns of text by their heads.
     data : mapping
@@ -59,7 +60,7 @@ class Part:
         Why there is no answer.
     """
 
-    title: str
+    title: str = ""
     text: str = ""
     tables: Sequence[Mapping[str, Sequence[str]]] = ()
     data: Mapping[str, xr.Dataset] = field(default_factory=dict)
@@ -107,13 +108,9 @@ def blade_parts(
         try:
             part = made()
         except (ValueError, RuntimeError) as error:
-            part = Part(title=title, failure=str(error))
-        yield Part(
-            **{
-                **vars(part), "title": title,
-                "data": {name: data.assign_attrs(about) for name, data in part.data.items()},
-            }
-        )  # fmt: skip
+            part = Part(failure=str(error))
+        data = {kind: one.assign_attrs(about) for kind, one in part.data.items()}
+        yield replace(part, title=title, data=data)
 
 
 def sections_of(blade: Blade) -> xr.Dataset:
@@ -157,7 +154,7 @@ def _sections(blade: Blade) -> Part:
         f"{name} [{one.attrs['units']}]": _texts(one, ".4g") for name, one in few.data_vars.items()
     }
     return Part(
-        title="", text=text, tables=[table], data={"sections": data},
+        text=text, tables=[table], data={"sections": data},
         draw=lambda figures: figures.blade_sections(data),
     )  # fmt: skip
 
@@ -179,7 +176,7 @@ def _modes(blade: Blade, omega: float, theory: Theory, tolerance: float | None) 
     }
     text = f"Known to {max(rest.error, turning.error):.1e} of each frequency. Shapes at the speed."
     return Part(
-        title="", text=text, tables=[table], draw=lambda figures: figures.mode_shapes(turning),
+        text=text, tables=[table], draw=lambda figures: figures.mode_shapes(turning),
         data={"modes-at-rest": dataset_of(rest), "modes": dataset_of(turning)},
     )  # fmt: skip
 
@@ -198,7 +195,7 @@ def _campbell(blade: Blade, omega: float, theory: Theory, tolerance: float | Non
     }
     text = "Where frequencies cross multiples of the speed." if met else "Nothing crosses a line."
     return Part(
-        title="", text=text, tables=[table] if met else [], data={"campbell": dataset_of(diagram)},
+        text=text, tables=[table] if met else [], data={"campbell": dataset_of(diagram)},
         draw=lambda figures: _wide(figures, diagram),
     )  # fmt: skip
 
@@ -232,7 +229,7 @@ def _steady(blade: Blade, omega: float, theory: Theory, tolerance: float | None)
     }
     error = max(state.error for state in states)
     return Part(
-        title="", text=f"Without weight. The tip is known to {error:.1e} of the length.",
+        text=f"Without weight. The tip is known to {error:.1e} of the length.",
         tables=[table], data={"steady": data}, draw=lambda figures: figures.steady_tip(data),
     )  # fmt: skip
 
@@ -266,7 +263,7 @@ def _turn(blade: Blade, omega: float, theory: Theory) -> Part:
         f"cone and twist has a moment in the plane that goes between ±{rigid:.5g} N m."
     )
     return Part(
-        title="", text=text, tables=[table], data={"turn": data},
+        text=text, tables=[table], data={"turn": data},
         draw=lambda figures: figures.root_over_turn(data),
     )  # fmt: skip
 
