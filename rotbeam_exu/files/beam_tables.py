@@ -86,7 +86,8 @@ def require_keys(value: object, content: object = _DOCUMENT, title: str = "the f
             require_keys(one, tables, f"[{title}]")
         return
     if not isinstance(value, dict):
-        raise ValueError(f"write {title} as a table")
+        named = isinstance(value, str) and any("file" in one.required for one in tables)
+        raise ValueError(f"write {title} as a table" + f", file = {value!r} in it" * named)
     if _TELLING_ITS_KIND in tables:
         return
     # The one alternative whose keys are there.

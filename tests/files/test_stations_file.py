@@ -193,6 +193,7 @@ def test_two_twists_are_refused(loaded):
             SHAPES.replace("[{ kind", '["Tube", { kind'),
             r"write \[\[blade.stations.shapes\]\] as a table",
         ),
+        ('[blade]\nstations = "a.csv"', r"write \[blade.stations\] as a table, file = 'a.csv' in"),
         (f"{RATIO}bending = 0.1\n", r"unknown key 'bending' in \[blade.damping\]"),
     ],
 )
