@@ -40,6 +40,9 @@ from .span import Span
 from .state import Driven, flap_of_kick
 from .vectors import cross, turned, turned_back
 
+_IN_CACHE = 30_000
+"""Numbers per component of a field of derivatives that are computed at once: a megabyte."""
+
 
 class SpaceContinuum(SpaceKinematics):
     """Galerkin discretization of the exact blade in polynomials of its moments and forces.
@@ -160,16 +163,24 @@ class SpaceContinuum(SpaceKinematics):
         """Return the residual and its derivatives to q, q̇ and q̈ for (samples, n) coordinates."""
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, by)
-        pulled, force, moment = self._forces(at, motion, by)
-        change = Changes(self, at, motion, *self._clamp(by)[:2])
-        mass, damping, stiffness = change.matrices()
-        stiffness += change.geometric(pulled, force, moment)
-        for span, acting in self._following(at, by):
-            stiffness -= change.following(span.running.of, acting)
+        forces, following = self._forces(at, motion, by), self._following(at, by)
+        clamp = [np.broadcast_to(of, (3, len(q), 1)) for of in self._clamp(by)[:2]]
+        matrices = np.empty((3, *q.shape, q.shape[1]))
+        few = max(1, _IN_CACHE // (q.shape[1] * self.points.size))
+        for first in range(0, len(q), few):
+            # Fields have the samples before the last axis.
+            some = (..., slice(first, first + few), slice(None))
+            here, moving = State(*(of[some] for of in at)), Rates(*(of[some] for of in motion))
+            change = Changes(self, here, moving, *(of[some] for of in clamp))
+            mass, damping, stiffness = change.matrices()
+            stiffness += change.geometric(*(of[some] for of in forces))
+            for span, acting in following:
+                stiffness -= change.following(span.running.of, acting[some])
+            matrices[:, first : first + few] = mass, damping, stiffness
+        mass, damping, stiffness = matrices
         stiffness += self.functions.stiffness
         damping += self.functions.damping
-        residual = self._work(at, q, q_dot, force, moment)
-        return Tangent(residual, stiffness, damping, mass)
+        return Tangent(self._work(at, q, q_dot, *forces[1:]), stiffness, damping, mass)
 
     @property
     def bending(self) -> int:
