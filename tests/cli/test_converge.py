@@ -2,12 +2,14 @@
 
 import importlib
 import signal
+import warnings
 
 import numpy as np
 import pytest
 
 from analytic import Beam, SpinUp, linear_modes, spin_up_response
 from rotbeam_exu import load, natural_frequencies, simulate
+from rotbeam_exu.cli.sweep import _print_errors
 from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.sweeps import grid
@@ -57,6 +59,15 @@ def test_orders_errors_and_a_mesh_that_keeps_the_tolerance(call, tmp_path):
         assert 0.6e-3 < off < 1.65e-3
     found = natural_frequencies(beam, 6.0, elements=n)
     assert np.abs(found / linear_modes(beam, 6.0).frequencies - 1.0).max() < 3e-3
+    assert "limit of this element" not in error
+    # An element is told of another limit for what its runs do not leave open.
+    data["exact_distance"][:] = 8e-3
+    for bar, told in ((1e-2, False), (1e-3, True)):
+        data["frequency_uncertainty"][:] = bar
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            _print_errors(data, data)
+        assert any("at least 7.0e-03" in str(one.message) for one in caught) is told
 
 
 def test_a_tapered_blade_on_the_default_mesh_is_told(call, tmp_path):
