@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Literal
 
 import numpy as np
 
@@ -28,12 +29,13 @@ class Theory:
         Whether slices have inertia against rotation about all axes: that of a homogeneous section,
         ρI = m EI/EA, unless the section tells its own. What it tells is there in any case. Without
         it they have inertia against torsion, but none against the rates of bending.
-    trapeze : bool
+    trapeze : bool or "elastic"
         Whether twist shortens the axis, the trapeze effect, and slices without rotary inertia
         feel the rotation of the clamp, which gives the propeller moment. Both untwist a blade and
         are of the same size; slices with rotary inertia have the propeller moment in any case.
-        GXBeam and many others do not have the trapeze effect: compare with False. BeamDyn has
-        that of the elastic twist alone, which is neither.
+        "elastic" is the trapeze effect of the elastic twist alone, as BeamDyn has it: tension
+        stiffens torsion, and does not untwist. GXBeam and many others have none: compare with
+        False.
 
     Raises
     ------
@@ -55,10 +57,17 @@ class Theory:
     shear: float | bool | None = None
     engesser: bool = False
     rotary_inertia: bool = False
-    trapeze: bool = True
+    trapeze: bool | Literal["elastic"] = True
 
     def __post_init__(self) -> None:
-        for name in ("extension", "engesser", "rotary_inertia", "trapeze"):
+        switches = ["extension", "engesser", "rotary_inertia", "trapeze"]
+        if isinstance(self.trapeze, str):
+            if self.trapeze != "elastic":
+                raise ValueError(
+                    f'trapeze must be True, False or "elastic", got {shown(self.trapeze)}'
+                )
+            switches.remove("trapeze")
+        for name in switches:
             object.__setattr__(self, name, flag(name, getattr(self, name)))
         if isinstance(self.shear, bool | np.bool_):
             object.__setattr__(self, "shear", bool(self.shear) or None)
@@ -83,7 +92,9 @@ class Theory:
 
     def __str__(self) -> str:
         given = ((one.name, getattr(self, one.name), one.default) for one in fields(self))
-        return f"Theory({', '.join(f'{name}={now}' for name, now, usual in given if now != usual)})"
+        return (
+            f"Theory({', '.join(f'{name}={now!r}' for name, now, usual in given if now != usual)})"
+        )
 
 
 BERNOULLI_EULER = Theory()

@@ -59,7 +59,7 @@ def theory_attributes(theory: Theory) -> dict[str, object]:
     """
     values = asdict(theory).items()
     return {
-        name: value if isinstance(value, float) else int(value)
+        name: value if isinstance(value, float | str) else int(value)
         for name, value in values
         if value != getattr(BERNOULLI_EULER, name)
     }
@@ -68,8 +68,10 @@ def theory_attributes(theory: Theory) -> dict[str, object]:
 def theory_of(attrs: Attributes) -> Theory:
     """Return the theory that the attributes of an answer describe."""
     stored = {k.name: attrs[k.name] for k in fields(Theory) if k.name in attrs}
-    # A number among them is the ratio of shear.
-    values: dict[str, Any] = {k: v if isinstance(v, float) else bool(v) for k, v in stored.items()}
+    # A number among them is the ratio of shear, a text a kind of trapeze effect.
+    values: dict[str, Any] = {
+        k: v if isinstance(v, float | str) else bool(v) for k, v in stored.items()
+    }
     return Theory(**values)
 
 

@@ -216,6 +216,7 @@ def _strains(inner: SectionLoads) -> FloatArray:
     if inner.trapeze and section.knows_space:
         # N acts on ε + ½k²(κ1² - κ01²): k²Nκ1 of the torque is its own.
         twist, k2 = slope_of(blade.line.in_units(L).twist, at), trapeze_of(soft)
+        twist = twist * (inner.trapeze is True)
         pull = k2 * loads[..., 0]
         free = np.sum(soft[:, 3] * loads, axis=-1)
         change = (free - soft[:, 3, 3] * pull * twist) / (1.0 + soft[:, 3, 3] * pull)

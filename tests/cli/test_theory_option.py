@@ -27,6 +27,10 @@ BEAM = Beam.from_stiffness(
     [
         ((), Theory(shear=0.3, rotary_inertia=True)),
         (("--theory", "rotary_inertia=false"), Theory(shear=0.3)),
+        (
+            ("--theory", 'trapeze="elastic"'),
+            Theory(shear=0.3, rotary_inertia=True, trapeze="elastic"),
+        ),
         (("--theory", "shear=false", "trapeze=false"), Theory(rotary_inertia=True, trapeze=False)),
     ],
 )
@@ -55,6 +59,7 @@ def test_attributes_hold_every_theory():
     [
         ("trapez=true", "unknown key 'trapez' in --theory; did you mean 'trapeze'?"),
         ("trapeze=1", "trapeze must be True or False, got 1"),
+        ("trapeze='none'", "trapeze must be True, False or \"elastic\", got 'none'"),
         (
             "trapeze=no",
             "takes key=value as in a file, as trapeze=false shear=0.3, got 'trapeze=no'",

@@ -56,7 +56,7 @@ class Strains:
     gamma: FloatArray  # Γ, (3, places, n)
     K: FloatArray  # K, (3, places, n)
     initial: FloatArray  # K of the unloaded blade, without the twist, (3, places)
-    twist: FloatArray  # κ01, (places,)
+    twist: FloatArray  # κ01 that tension acts on, (places,)
     trapeze: FloatArray  # k² of the trapeze effect, zero without it, (places,)
 
     @cached_property
@@ -261,7 +261,7 @@ class StrainFunctions:
             gamma=strains[:3],
             K=strains[3:],
             initial=self.blade.bent(x),
-            twist=slope_of(self.blade.line.twist, x),
+            twist=slope_of(self.blade.line.twist, x) * (self.theory.trapeze is True),
             trapeze=trapeze_of(soft) if self.theory.trapeze else np.zeros_like(x),
         )
 
@@ -281,7 +281,7 @@ class StrainFunctions:
         center[:, : x.size], J = blade.inertia_about(x, self.slenderness)
         whole, A[:, :, : x.size] = np.ones_like(places), weights * J
         if not (blade.turns or self.theory.rotary_inertia):
-            C, whole[: x.size] = float(self.theory.trapeze) * A, 0.0
+            C, whole[: x.size] = float(bool(self.theory.trapeze)) * A, 0.0
             A[1:, 1:] = 0.0
         center[1:, x.size :], A[2, 2, x.size :] = centers.T, inertias
         air = blade.damping.external

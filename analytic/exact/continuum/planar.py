@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,7 +74,7 @@ class Continuum(Kinematics):
     tolerance: ClassVar[float] = 1e-9
     """Relative change of the frequencies from one basis to the next, far above noise."""
     tail: ClassVar[float] = 1.0
-    trapeze: ClassVar[bool] = False
+    trapeze: ClassVar[Literal[False]] = False
     twists: ClassVar[bool] = False
     stiff: ClassVar[bool] = False
     uncoupled: ClassVar[bool] = True

@@ -25,7 +25,7 @@ coordinates: Su and Cesnik (2011).
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -206,8 +206,8 @@ class SpaceContinuum(SpaceKinematics):
         return int((degrees + more) * self.functions.blade.panel_count)
 
     @property
-    def trapeze(self) -> bool:
-        """Whether twist shortens the axis."""
+    def trapeze(self) -> bool | Literal["elastic"]:
+        """Whether twist shortens the axis, as the theory has it."""
         return self.functions.theory.trapeze
 
     def tip_gradient(self, q: FloatArray) -> FloatArray:

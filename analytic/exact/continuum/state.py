@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -100,7 +100,7 @@ class SectionLoads:
         Of a blade that bends in one plane the shear force along axis 3, the torque and the moment
         about axis 2 are zero; where its section out of this plane is unknown they are not
         computed. A steady state has no samples.
-    trapeze : bool
+    trapeze : bool or "elastic"
         Whether twist shortens the axis, as `Theory` has it, so that tension twists a section too.
 
     Examples
@@ -118,7 +118,7 @@ class SectionLoads:
     section: FloatArray = field(repr=False)
     force: FloatArray = field(repr=False)
     moment: FloatArray = field(repr=False)
-    trapeze: bool = False
+    trapeze: bool | Literal["elastic"] = False
 
     @property
     def tension(self) -> FloatArray:
@@ -131,7 +131,7 @@ def in_newtons(
     x: FloatArray,
     standing: tuple[FloatArray, FloatArray],
     loads: tuple[FloatArray, FloatArray],
-    trapeze: bool,
+    trapeze: bool | Literal["elastic"],
 ) -> SectionLoads:
     """Return places, sections and loads without dimensions at `x` over L as a value."""
     unit = blade.bending_stiffness / blade.length

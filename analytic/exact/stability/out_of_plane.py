@@ -81,7 +81,7 @@ class FlapTorsion:
         self.twists = self.unit.twists and not self.unit.bends_alike
         # Whether slices turn in bending too, or feel the clamp's rotation, or neither.
         self._whole = self.unit.turns or theory.rotary_inertia
-        self._carried = theory.trapeze and not self._whole
+        self._carried = bool(theory.trapeze) and not self._whole
         self.size = (1 + self.twists) * self.functions
         self._on = lru_cache(maxsize=8)(self._on_points)
 
@@ -138,7 +138,7 @@ class FlapTorsion:
             mixed = _form(bent, excess, twist)
             twisted = _form(twist, model.weights * turning - excess * kappa, twist)
             return straight + mixed + np.swapaxes(mixed, 1, 2) + twisted
-        torsion = model.weights * (of.torsion + self.theory.trapeze * tension * of.gyration)
+        torsion = model.weights * (of.torsion + bool(self.theory.trapeze) * tension * of.gyration)
         straight += _form(angle, torsion * kappa**2, angle)
         mixed = _form(angle, torsion * kappa, strain_t)
         mixed += _form(bent, excess, once_t)

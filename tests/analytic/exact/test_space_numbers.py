@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy import integrate
 
 from analytic import (
     Beam,
@@ -104,6 +105,41 @@ def test_propeller_moment_and_trapeze_effect(theory, bending, torsion, untwist):
     K = model.strains.K[0] @ q
     assert model.weights @ K == pytest.approx(untwist, abs=6e-7)
     assert steady_state(blade, 4.0, theory=theory).twist == pytest.approx(untwist, abs=6e-7)
+
+
+@pytest.mark.parametrize("trapeze", [False, "elastic", True])
+def test_tension_and_the_propeller_moment_twist_a_straight_blade(trapeze):
+    """An ordinary differential equation for torque, tension and twist, by SciPy.
+
+    (GJ + k²N) φ' = T - k²N θ' with the initial twist θ, whose part "elastic" leaves out, as BeamDyn
+    does: its torque and twist of such a blade follow from this equation to 3e-10.
+    """
+    w, hub, twist, mu, ratio, GJ = 3.0, 0.1, 0.6, 1e-3, 1.0 / 16.0, 0.08
+    blade = unit_beam(mu).with_section_out_of_plane(ratio, GJ).with_twist(twist)
+    theory = Theory(trapeze=trapeze, rotary_inertia=True)
+    k2, shared = (1.0 + ratio) * mu * bool(trapeze), twist * (trapeze is True)
+
+    def rates(x, y):
+        r, N, phi, T = y
+        bent = (T - k2 * N * shared) / (GJ + k2 * N)
+        shorter = k2 * bent * (shared + 0.5 * bent)
+        turned = twist * x + phi
+        couple = (1.0 - ratio) * mu * w**2 * np.sin(turned) * np.cos(turned)
+        return np.stack((1.0 + mu * N - shorter, -(w**2) * r, bent, couple))
+
+    def ends(root, tip):
+        return np.array([root[0] - hub, tip[1], root[2], tip[3]])
+
+    x = np.linspace(0.0, 1.0, 41)
+    guess = np.stack((hub + x, w**2 * (1.0 - x), 0.0 * x, 0.0 * x))
+    known = integrate.solve_bvp(rates, ends, x, guess, tol=1e-9)
+    r, N, phi, T = known.sol([0.0, 1.0])
+    found = steady_state(blade.with_hub_radius(hub), w, theory=theory)
+    assert found.twist == pytest.approx(phi[1], rel=1e-7)
+    assert found.tip[0] == pytest.approx(r[1] - hub, rel=1e-9)
+    loads = found.section_loads([0.0])
+    assert loads.moment[0, 0] == pytest.approx(T[0], rel=1e-7)
+    assert loads.force[0, 0] == pytest.approx(N[0], rel=1e-8)
 
 
 def test_an_unloaded_blade_has_no_twist_however_it_is_bent():

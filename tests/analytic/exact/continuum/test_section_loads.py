@@ -232,7 +232,7 @@ def test_a_blade_set_in_its_plane_and_the_same_in_space_stand_alike():
     np.testing.assert_allclose(flap, math.tan(0.7) * lag, rtol=1e-12)
 
 
-@pytest.mark.parametrize("trapeze", [False, True])
+@pytest.mark.parametrize("trapeze", [False, "elastic", True])
 def test_the_strains_of_a_section_are_those_by_which_it_stands(trapeze):
     """With the trapeze effect tension untwists a section, which carries no torque for that."""
     blade = STRAIGHT.with_twist(0.8).with_precone(0.1).with_offsets(tension=(0.01, 0.005))
