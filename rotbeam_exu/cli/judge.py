@@ -283,7 +283,7 @@ def _times(judgements: Sequence[Judgement]) -> dict[str, list[str]]:
 def _order(one: Judgement, name: str) -> str:
     """Return the observed order of the declared one, marked where it is low."""
     order: Order | None = next((of[name] for of in one.orders.values() if name in of), None)
-    if order is None or math.isnan(order.value):
+    if order is None or (math.isnan(order.value) and not order.exponential):
         return "-"
     return f"{order}{'!' if order.low else ''}"
 

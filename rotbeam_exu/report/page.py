@@ -163,7 +163,9 @@ def latex_table(record: Record) -> str:
             limit = f"{_in_latex(runs.limit)} $\\pm$ {_in_latex(runs.bar)}"
         both = [runs.orders.get(part, Order()) if runs else Order() for part in ("mesh", "step")]
         orders = [
-            "--" if math.isnan(one.value) else f"${one.value:.1f} \\pm {one.bar:.1f}$"
+            f"${one.value:.1f} \\pm {one.bar:.1f}$"
+            if math.isfinite(one.value)
+            else (one.why if one.exponential else "--")
             for one in both
         ]
         outcome, finest = str(judgement.outcome_of(name)), _in_latex(abs(first.difference))

@@ -60,6 +60,8 @@ class SteadyOscillation:
         Mean of the periodic part of q over L [-]; zero by symmetry.
     residual : float
         Root mean square of q less its periodic part, over L [-]: the other bending modes.
+    decay : float
+        Share of the amplitude that is lost per cycle; zero where none is seen [-].
     cycles : int
         Whole cycles in the window.
     harmonics : ndarray of shape (HARMONICS,)
@@ -73,6 +75,7 @@ class SteadyOscillation:
     frequency_error: float
     offset: float
     residual: float
+    decay: float
     cycles: int
     harmonics: FloatArray
 
@@ -81,7 +84,8 @@ def steady_oscillation(run: xr.Dataset) -> SteadyOscillation:
     """Measure the oscillation of q from the end of the ramp to the end of the run.
 
     A Fourier series and, for the other modes, free tones are fitted to q, frequencies included, by
-    least squares weighted with Hann's window (`rotbeam_exu.runs.tones`). The errors bound the
+    least squares weighted with Hann's window (`rotbeam_exu.runs.tones`). Where integrator or blade
+    damp it, amplitude and frequency are those in the middle of the window. The errors bound the
     effect of the fit's remainder at its most harmful phases. Time may be in any unit, evenly
     sampled or not.
 
@@ -144,6 +148,7 @@ def oscillation_of(
         frequency_error=frequency.error / window,
         offset=height * float(fit.coefficients[0]),
         residual=height * float(np.sqrt(np.mean((fit.x - fit.periodic()) ** 2))),
+        decay=2.0 * math.pi * fit.decay / frequency.value,
         cycles=_whole_cycles(window, frequency.value / window, ramp_time),
         harmonics=harmonics,
     )

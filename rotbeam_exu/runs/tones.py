@@ -1,7 +1,9 @@
 """A sampled signal as a Fourier series and free tones, and how far its remainder could mislead.
 
 x(t) ≈ c₀ + Σ_k [c_k cos(kωt) + s_k sin(kωt)] + Σ_j [c_j cos(ν_j t) + s_j sin(ν_j t)]. The series is
-the periodic oscillation of fundamental ω; the tones belong to other modes, at any frequency.
+the periodic oscillation of fundamental ω; the tones belong to other modes, at any frequency. Of a
+signal that an integrator damps, harmonics have the envelopes exp(-kδs), s from the middle of the
+window, and the phases kωt + ½kχs²; tones decay, too. ω and the height are those in the middle.
 """
 
 from __future__ import annotations
@@ -25,6 +27,9 @@ _LOBE = 2
 
 _ORDERS = np.arange(1.0, HARMONICS + 1.0)
 _COSINES = slice(1, HARMONICS + 1)
+_MIDDLE = 0.5  # of the window
+_NONE: FloatArray = np.empty(0)
+_LOOSE = 1e-4  # relative error of the height above which the signal may decay
 _ROUND_OFF = 16.0 * float(np.finfo(np.float64).eps)
 
 
@@ -44,6 +49,7 @@ class Fit:
     x: FloatArray
     weights: FloatArray
     rates: FloatArray  # ω and the ν_j [rad per unit of time]
+    damping: FloatArray  # δ of each, and χ; empty of what does not decay
     coefficients: FloatArray  # c₀, the cosines of harmonics and tones, then their sines
     columns: FloatArray  # the model's functions (samples, coefficients)
 
@@ -64,10 +70,8 @@ class Fit:
 
     def periodic(self) -> FloatArray:
         """Return the series without the tones, over time."""
-        phases = np.outer(self.time, self.rates[0] * _ORDERS)
-        return np.asarray(
-            self.coefficients[0] + np.cos(phases) @ self.cosines + np.sin(phases) @ self.sines
-        )
+        first = np.r_[0, _COSINES, self._sines]
+        return np.asarray(self.columns[:, first] @ self.coefficients[first])
 
     @cached_property
     def remainder(self) -> FloatArray:
@@ -79,20 +83,29 @@ class Fit:
         """Weighted sum of the remainder's squares."""
         return float(self.weights @ self.remainder**2)
 
+    @property
+    def decay(self) -> float:
+        """Rate δ by which the oscillation decays [1 per unit of time]."""
+        return float(self.damping[0]) if self.damping.size else 0.0
+
     def frequency(self) -> Estimate:
         """Return ω and its error."""
-        gradient = np.zeros(self.coefficients.size + self.rates.size)
+        gradient = np.zeros(self._size)
         gradient[self.coefficients.size] = 1.0
         return self._estimate(float(self.rates[0]), gradient)
 
     def half_peak_to_peak(self) -> Estimate:
         """Return half the height of the series, from its lowest to its highest, and its error."""
         top, bottom = (self._turn(sign) for sign in (1.0, -1.0))
-        gradient = np.zeros(self.coefficients.size + self.rates.size)
+        gradient = np.zeros(self._size)
         gradient[_COSINES] = 0.5 * (np.cos(top * _ORDERS) - np.cos(bottom * _ORDERS))
         gradient[self._sines] = 0.5 * (np.sin(top * _ORDERS) - np.sin(bottom * _ORDERS))
         height = float(gradient[: self.coefficients.size] @ self.coefficients)
         return self._estimate(height, gradient)
+
+    @property
+    def _size(self) -> int:
+        return self.coefficients.size + self.rates.size + self.damping.size
 
     def uncertainty(self) -> float:
         """Return the product of both errors, by which fits are compared."""
@@ -129,8 +142,9 @@ class Fit:
 
     @cached_property
     def tangent(self) -> FloatArray:
-        """Derivatives of the model by coefficients, ω and ν, (samples, all)."""
-        return np.hstack([self.columns, _slopes(self.time, self.columns, self.coefficients)])
+        """Derivatives of the model by coefficients, ω, ν and the damping, (samples, all)."""
+        slopes = _slopes(self.time, self.columns, self.coefficients, self.damping.size > 0)
+        return np.hstack([self.columns, slopes])
 
     @cached_property
     def _inverse(self) -> FloatArray:
@@ -154,17 +168,31 @@ def fit_signal(time: FloatArray, x: FloatArray, guess: float) -> Fit:
     """
     # Hann's window all but silences what is more than two turns away from a tone.
     weights = np.sin(np.pi * time) ** 2 * np.gradient(time)
-    best = fit = _descend(time, x, weights, np.array([guess]))
-    failures = 0
+    fit = _with_tones(_descend(time, x, weights, np.array([guess])))
+    height = fit.half_peak_to_peak()
+    if height.error > _LOOSE * height.value:
+        first = fit.rates[:1]
+        damped = _with_tones(_descend(time, x, weights, first, np.zeros(2)))
+        # More parameters help a little by chance; of what decays they take nearly all.
+        if damped.uncertainty() < 0.1 * fit.uncertainty():
+            return damped
+    return fit
+
+
+def _with_tones(fit: Fit) -> Fit:
+    """Return a fit with as many tones as make it better known."""
+    time, x, weights = fit.time, fit.x, fit.weights
+    best, failures = fit, 0
     room = (2 * time.size // 3 - best.coefficients.size) // 3
     for _ in range(min(_TONES, room)):
         if best.frequency().error < 2.0 * _ROUND_OFF * best.rates[0] or failures == 2:
             break
         rates = np.append(fit.rates, _loudest(time, fit.remainder))
-        fit = _descend(time, x, weights, rates)
+        damping = np.insert(fit.damping, -1, 0.0) if fit.damping.size else fit.damping
+        fit = _descend(time, x, weights, rates, damping)
         better = fit.uncertainty() < best.uncertainty()
         best, failures = (fit, 0) if better else (best, failures + 1)
-    return _descend(time, x, weights, best.rates, most=20, enough=1e-9)
+    return _descend(time, x, weights, best.rates, best.damping, most=20, enough=1e-9)
 
 
 def _descend(
@@ -172,27 +200,28 @@ def _descend(
     x: FloatArray,
     weights: FloatArray,
     rates: FloatArray,
+    damping: FloatArray = _NONE,
     *,
     most: int = 8,
     enough: float = 1e-3,
 ) -> Fit:
-    """Gauss-Newton's method on the frequencies; the coefficients are linear and follow.
+    """Gauss-Newton's method on frequencies and damping; the coefficients are linear and follow.
 
     It ends after `most` steps, or when one gains less than `enough` of the misfit.
     """
 
-    def at(rates: FloatArray) -> Fit:
-        columns = _columns(time, rates)
-        return Fit(time, x, weights, rates, _solve(columns, x, weights), columns)
+    def at(rates: FloatArray, damping: FloatArray) -> Fit:
+        columns = _columns(time, rates, damping)
+        return Fit(time, x, weights, rates, damping, _solve(columns, x, weights), columns)
 
-    fit = at(rates)
+    fit = at(rates, damping)
     for _ in range(most):
         # The change that the linearized model asks for, coefficients free.
         step = _solve(fit.tangent, fit.remainder, weights)[fit.coefficients.size :]
         # Beyond a tenth of a turn over the window the linearization means nothing.
         step /= max(1.0, float(np.abs(step).max()) / 0.6)
         for _ in range(5):
-            trial = at(fit.rates + step)
+            trial = at(fit.rates + step[: rates.size], fit.damping + step[rates.size :])
             if trial.misfit < fit.misfit:
                 break
             step /= 2.0
@@ -217,21 +246,40 @@ def _solve(columns: FloatArray, x: FloatArray, weights: FloatArray) -> FloatArra
     return np.asarray(solution / scale, dtype=np.float64)
 
 
-def _columns(time: FloatArray, rates: FloatArray) -> FloatArray:
+def _columns(time: FloatArray, rates: FloatArray, damping: FloatArray) -> FloatArray:
     """One, the cosines and the sines of harmonics and tones, shape (samples, coefficients)."""
-    phases = np.outer(time, np.concatenate([rates[0] * _ORDERS, rates[1:]]))
-    return np.hstack([np.ones((time.size, 1)), np.cos(phases), np.sin(phases)])
+    phases = np.outer(time, _of_each(rates))
+    envelopes: FloatArray | float = 1.0
+    if damping.size:
+        s = time - _MIDDLE
+        phases[:, :HARMONICS] += np.outer(0.5 * damping[-1] * s**2, _ORDERS)
+        envelopes = np.exp(-np.outer(s, _of_each(damping[:-1])))
+    waves = envelopes * np.cos(phases), envelopes * np.sin(phases)
+    return np.hstack([np.ones((time.size, 1)), *waves])
 
 
-def _slopes(time: FloatArray, columns: FloatArray, coefficients: FloatArray) -> FloatArray:
-    """Return the derivatives of the model by ω and the ν, shape (samples, 1 + J)."""
+def _of_each(rates: FloatArray) -> FloatArray:
+    """Return those of harmonics and tones."""
+    return np.concatenate([rates[0] * _ORDERS, rates[1:]])
+
+
+def _slopes(
+    time: FloatArray, columns: FloatArray, coefficients: FloatArray, damped: bool
+) -> FloatArray:
+    """Return the derivatives of the model by ω and the ν, then by δ and χ, (samples, all)."""
     half = columns.shape[1] // 2
     cosines, sines = columns[:, 1 : half + 1], columns[:, half + 1 :]
-    slopes = time[:, None] * (
-        cosines * coefficients[half + 1 :] - sines * coefficients[1 : half + 1]
-    )
-    series = slopes[:, :HARMONICS] @ _ORDERS
-    return np.hstack([series[:, None], slopes[:, HARMONICS:]])
+    c, s = coefficients[1 : half + 1], coefficients[half + 1 :]
+
+    def gathered(of: FloatArray) -> FloatArray:
+        return np.hstack([of[:, :HARMONICS] @ _ORDERS[:, None], of[:, HARMONICS:]])
+
+    turned = gathered(cosines * s - sines * c)
+    slopes = [time[:, None] * turned]
+    if damped:
+        middle = (time - _MIDDLE)[:, None]
+        slopes += [-middle * gathered(cosines * c + sines * s), 0.5 * middle**2 * turned[:, :1]]
+    return np.hstack(slopes)
 
 
 def _loudest(time: FloatArray, remainder: FloatArray) -> float:

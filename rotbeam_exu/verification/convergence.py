@@ -21,6 +21,11 @@ from .error_models import Declared, Models, bar_of, likeliest, models_of, shares
 
 _TELLING = 0.5  # bar of an order over the order, above which it is not measured
 
+_STEEPEST = 10.0
+"""Order in the mesh beyond which errors fall faster than by any element that is refined, whose
+order is 8 at most: exponentially, as where its degree is raised."""
+
+_EXPONENTIAL = "exponential"
 
 LEAST_SHARE = 0.7
 """Least share of the declared order; coarse meshes show 3.0 to 3.9 of an order of four."""
@@ -36,7 +41,7 @@ class Order:
         And its standard deviation; NaN where the runs do not tell it.
     declared : float or None
     why : str
-        Why it is not measured.
+        Why it is not measured; "exponential" of errors that fall faster than any power.
     """
 
     value: float = math.nan
@@ -49,7 +54,14 @@ class Order:
         """True where it is less than LEAST_SHARE of the declared one."""
         return self.declared is not None and self.value < LEAST_SHARE * self.declared
 
+    @property
+    def exponential(self) -> bool:
+        """True of spectral methods and of elements whose degree is raised."""
+        return self.why == _EXPONENTIAL
+
     def __str__(self) -> str:
+        if self.exponential:
+            return self.why
         if math.isnan(self.value):
             return f"not measured: {self.why}"
         return f"{self.value:.1f}" + (f" of {self.declared:g}" if self.declared else "")
@@ -190,6 +202,8 @@ def _orders(
         why = "" if bar <= _TELLING * value else "the runs do not tell it"
         if not visible:
             why = "the changes are below the floor"
+        if name == "mesh" and visible and value > max(_STEEPEST, stated or 0.0):
+            why = _EXPONENTIAL
         if count < 3:
             why = f"{count} {'meshes' if name == 'mesh' else refined + 's'}, three are needed"
         estimate = {} if why else {"value": value, "bar": bar}

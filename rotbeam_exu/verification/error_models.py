@@ -25,6 +25,9 @@ Declared = tuple[float | None, float | None]
 """Orders in mesh and step that an author declares."""
 
 _ORDERS = (0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
+_STEEP = (12.0, 18.0, 27.0)
+"""Orders of the mesh alone: on a few meshes a power so high stands for an exponential fall."""
+
 _VARIATIONS = {0.02: 0.4, 0.1: 0.2, 0.3: 0.2, 1.0: 0.2}
 """κ of mesh and step: 1 where there is no rule at all."""
 
@@ -152,7 +155,7 @@ def _modeled(
 def models_of(x: tuple[float, ...], y: tuple[float, ...], declared: Declared) -> Models:
     """Return the grid of models on sizes x and y over the finest."""
     stepped = len(set(y)) > 1
-    p = sorted({*_ORDERS, *filter(None, declared[:1])})
+    p = sorted({*_ORDERS, *_STEEP, *filter(None, declared[:1])})
     r = sorted({*_ORDERS, *filter(None, declared[1:])}) if stepped else [1.0]
     ratios = _RATIOS if stepped else (0.0,)
     pairs = [

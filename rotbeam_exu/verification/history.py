@@ -108,6 +108,18 @@ class Histories:
         time = self.finest.time
         return self._oscillation(time, self.reference.history(time))
 
+    @property
+    def losses(self) -> list[str]:
+        """A sentence on how much the integrator damps, of the finest run in which it is seen."""
+        for run in sorted(self.runs, key=lambda run: run.fineness, reverse=True):
+            one = self.oscillations[run]
+            if isinstance(one, str) or self.case.blade.damping:
+                return []
+            if one.decay * one.cycles > one.amplitude_error / one.amplitude:
+                said = f"damps the first mode by {one.decay:.0e} of its amplitude per cycle"
+                return [f"your integrator {said}: {_name(run)}"]
+        return []
+
     def amplitude(self, tolerance: float) -> Finding:
         """Return the finding of the amplitude of the steady oscillation."""
         true = self.true_oscillation
@@ -213,6 +225,11 @@ def free_frequency(case: Case, elements: int, speed: float, time: FloatArray, q:
     except NoOscillationError as error:
         begin = f"start in the first mode, at up to {FREE_SWING:g} L, and let go"
         raise ValueError(f"{str(error).partition(':')[0]}: {begin}") from error
+    if -oscillation.decay * oscillation.cycles > FREE_UNCERTAINTY:
+        raise ValueError(
+            f"grows by {-oscillation.decay:.0e} per cycle, which no free vibration does: take a "
+            "smaller step, or another integrator"
+        )
     if oscillation.amplitude > FREE_SWING:
         raise ValueError(
             f"swings by {oscillation.amplitude:.2g} L, where the frequency is no longer the linear "

@@ -59,7 +59,8 @@ class Judgement:
     sources : dict
         By name of the case, the reference that was used.
     remarks : dict
-        By name of the case, a sentence on each run that failed or is a copy: it is not judged.
+        By name of the case, a sentence on each run that failed or is a copy, which is not judged,
+        and one on how much the integrator damps.
     asked : tuple of str
         All cases that might have been submitted.
     """
@@ -221,6 +222,7 @@ def judged(
             case=case, runs=tuple(runs), reference=truth, declaration=submission.declaration
         )
         findings[name] = _of_histories(histories[name], frequencies)
+        remarks[name] += histories[name].losses if case.oscillates else []
     required = [name for name in all_cases if not only or name in only]
     names = [name for name in required if name in findings]
     return Judgement(

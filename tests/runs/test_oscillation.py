@@ -50,6 +50,30 @@ def test_a_second_mode_is_told_apart(frequency, second):
     assert found.frequency_error < 1e-11 * frequency
 
 
+@pytest.mark.parametrize("lost", [1e-5, 1e-3, 2e-2])
+def test_what_an_integrator_damps_is_measured_in_the_middle_of_the_window(lost):
+    """A slow swing of a hardening oscillator: x'' + 2δx' + ω²x (1 + κx²) = 0 by averaging.
+
+    Its amplitude is A exp(-δs), its frequency ω(1 + ⅜κA²exp(-2δs)), harmonics go with the third
+    power; the second mode dies within the window. Before, tones beside the harmonics took the
+    decay, and the bar of the amplitude was up to eight times the amplitude.
+    """
+    frequency, shift, period = 3.7, 2e-3, 2.0 * np.pi / 3.7
+    run = signal()
+    time = run["time"].to_numpy()
+    s = time - 9.0  # of the window from 3 to 15 s
+    delta = lost / period
+    slow = -np.expm1(-2.0 * delta * s) / (2.0 * delta)
+    phase, a = frequency * (s + shift * (slow - s)) + 0.4, np.exp(-delta * s)
+    x = 0.3 * a * np.cos(phase) + 0.004 * a**3 * np.cos(3.0 * phase)
+    x += 5e-3 * np.exp(-0.5 * (time - 3.0)) * np.cos(23.01 * time)
+    run["q"] = "time", 8.0 * x
+    found = steady_oscillation(run)
+    assert abs(found.amplitude - 0.304) <= found.amplitude_error < 1e-4
+    assert abs(found.frequency - frequency) <= found.frequency_error < 1e-4
+    assert found.decay == pytest.approx(lost, rel=1e-2, abs=2e-6)
+
+
 def beside(rng, ratio, extra):
     """One signal with a mode at `ratio` times the frequency, and what `extra` adds; and truths.
 

@@ -143,6 +143,21 @@ def test_noise_is_never_taken_for_an_order(seed):
     assert found.bar < 20.0 * noise
 
 
+@pytest.mark.parametrize("size", [1e7, 1e8])
+def test_degrees_that_are_raised_converge_exponentially(size):
+    """Errors C exp(-2.5 n) as of a spectral element, beside three steps on one degree.
+
+    The limit is known to a fifth of the finest run's error, which is the step's.
+    """
+    degrees, steps = (8, 10, 12, 14, 10, 10), (2.0, 2.0, 2.0, 2.0, 1.0, 0.5)
+    h = np.array(steps)
+    values = LIMIT + size * np.exp(-2.5 * np.array(degrees)) + 3e-3 * h**2
+    found = converged(degrees, steps, values, declared=(None, 2.0))
+    assert str(found.orders["mesh"]) == "exponential"
+    assert found.orders["step"].value == pytest.approx(2.0, rel=0.02)
+    assert abs(found.limit - LIMIT) <= found.bar < 0.2 * 3e-3 * h[3] ** 2
+
+
 def test_growths_are_counted_along_meshes_and_steps():
     meshes = (8, 16, 32, 64)
     assert converged(meshes, None, (1.0, 2.0, 4.0, 9.0)).growths == 2

@@ -232,6 +232,23 @@ def test_a_failed_run_is_told_and_not_judged(whole, finer):
     assert name in str(beside)
 
 
+def test_a_code_that_damps_is_judged_by_its_limit_and_told_how_much(whole):
+    """As HHT or generalized-α do by h²; undecided before, for the bar of the amplitude was a."""
+    runs = tuple(
+        replace(run, q=run.q * np.exp(-5e2 * run.step**2 * np.maximum(run.time - 3.0, 0.0)))
+        for run in whole.runs
+    )
+    found = judged(replace(whole, runs=runs), only=["S1"])
+    amplitude = found.findings["S1"]["amplitude"]
+    assert amplitude.outcome is Outcome.REFERENCE
+    assert amplitude.runs.bar < 1e-3
+    (said,) = found.remarks["S1"]
+    assert said == (
+        "your integrator damps the first mode by 8e-04 of its amplitude per cycle: "
+        "32 elements at 1 ms"
+    )
+
+
 def test_copies_of_the_reference_are_named_and_not_judged(whole):
     """Of each mesh the reference, to the digits of a file."""
     runs = tuple(
