@@ -210,6 +210,8 @@ def _draw(one: Code, ax: Axes) -> None:
 
 def _order(order: Order | None) -> str:
     known = order is not None and math.isfinite(order.value)
+    if order is not None and order.exponential:
+        return str(order)
     return f"{order.value:.1f} ± {order.bar:.1f}" if order is not None and known else "not measured"
 
 

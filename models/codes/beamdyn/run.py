@@ -1,0 +1,109 @@
+"""BeamDyn: one Legendre spectral element, whose degree is raised; its driver led by Eq. 1."""
+
+import os
+import shutil
+import sys
+import tempfile
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from common import output_of, sampled, take_part
+
+from rotbeam_exu.verification.case import Case
+from rotbeam_exu.verification.submission import Declaration
+
+HERE, SOURCES = Path(__file__).parent, os.environ.get("OPENFAST", "")
+MODULES = "cmake", "modules/nwtc-library", "modules/version", "modules/beamdyn"
+SHEAR, TURNING = 100.0, 1e-3
+"""GA over EA, and rotary inertia over m EI/EA: of a beam that hardly shears, as slender ones."""
+
+
+@cache
+def driver() -> Path:
+    """Build the driver from a copy of OpenFAST's sources, in a minute and a half."""
+    folder = Path(tempfile.mkdtemp())
+    for part in MODULES:
+        shutil.copytree(Path(SOURCES, part), folder / part)
+    source = folder / "modules/beamdyn/src"
+    output_of(["patch", "-d", source, "-i", HERE / "driver.patch"])
+    environment = {**os.environ, "OPENFAST": str(folder)}
+    build = folder / "build"
+    output_of(["cmake", "-S", HERE, "-B", build, "-DCMAKE_BUILD_TYPE=Release"], env=environment)
+    output_of(["make", "-C", build, "beamdyn_driver"])
+    return build / "bd/beamdyn_driver"
+
+
+def row(values) -> str:
+    """Return numbers as BeamDyn reads them."""
+    return " ".join(f"{value:.15E}" for value in values)
+
+
+def files(case: Case, degree: int, h: float) -> dict[str, str]:
+    """Return the driver's file, the primary one and that of the sections, z along the blade."""
+    beam, end = case.blade, case.duration
+    EA, EI, m = beam.axial_stiffness, beam.bending_stiffness, beam.mass_per_length
+    turning = TURNING * m * EI / EA
+    matrices = [
+        row(line)
+        for diagonal in (
+            (SHEAR * EA, SHEAR * EA, EA, EI, EI, EI),
+            (m, m, m, turning, turning, 2 * turning),
+        )
+        for line in (*np.diag(diagonal), ())
+    ]
+    zeros = ["0 zero"] * 6
+    return {
+        "driver.inp": [
+            "-", "-", "-", "True DynamicSolve", "0 t_initial", f"{end} t_final", f"{h} dt", "-",
+            *zeros[:3], "-", *zeros[:3], "-", "-", *(row(line) for line in np.eye(3)),
+            "True GlbRotBladeT0", "-", f"{case.rotation.omega} RootVel(4)", *zeros[:2], "-",
+            *zeros, *zeros, "0 NumPointLoads", "-", "-", "-", '"primary.inp" InputFile', "-",
+            "0 WrVTK", "15 VTK_fps",
+        ],
+        "primary.inp": [
+            "-", "-", "-", "False Echo", "False QuasiStaticInit", "0.9 rhoinf", "1 quadrature",
+            "1 refine", "1 n_fact", f"{h} DTBeam", '"DEFAULT" load_retries', "20 NRMax",
+            "1e-6 stop_tol", "False tngt_stf_fd", "False tngt_stf_comp",
+            '"DEFAULT" tngt_stf_pert', '"DEFAULT" tngt_stf_difftol', "True RotStates", "-",
+            "1 member_total", "3 kp_total", "1 3", "-", "-",
+            *(row((0.0, 0.0, z, 0.0)) for z in np.linspace(0.0, beam.length, 3)),
+            "-", f"{degree} order_elem", "-", '"blade.inp" BldFile', "-", "False SumPrint",
+            '"ES23.15E3" OutFmt', "1 NNodeOuts", "1 OutNd", "OutList", '"TipTDyr"', "END", "-",
+        ],
+        "blade.inp": [
+            "-", "-", "-", "2 station_total", "0 damp_type", "-", "-", "-", row(6 * [0.0]), "-",
+            "1 n_modes", "0.01 zeta", "-",
+            *(line for eta in "01" for line in (eta, *matrices)),
+        ],
+    }  # fmt: skip
+
+
+def history(case: Case, degree: int, h: float):
+    """Return q from the tip's displacement across the blade, in the frame of the root."""
+    program = driver()
+    with tempfile.TemporaryDirectory() as folder:
+        for name, lines in files(case, degree, h).items():
+            Path(folder, name).write_text("\n".join(lines) + "\n")
+        ramp = {**os.environ, "RAMP_T": repr(case.rotation.ramp_time)}
+        output_of([program, "driver.inp"], cwd=folder, env=ramp)
+        lines = Path(folder, "driver.out").read_text().splitlines()
+    first = next(k for k, line in enumerate(lines) if line.strip().startswith("Time"))
+    time, across = np.loadtxt(lines[first + 2 :]).T
+    return sampled(case, time, -across)
+
+
+if __name__ == "__main__":
+    if not SOURCES:
+        print("BeamDyn is left out: set OPENFAST to a folder with OpenFAST's sources")
+        sys.exit()
+    told = Declaration(
+        code="BeamDyn", version="OpenFAST 4, commit 2895884d2", licence="Apache-2.0",
+        url="https://github.com/OpenFAST/openfast", order_in_step=2.0,
+        element="one Legendre spectral element, elements are its degree; Gauss's quadrature",
+    )  # fmt: skip
+    driver()
+    runs = [(8, 4e-3), (10, 4e-3), (12, 4e-3), (14, 4e-3), (10, 8e-3), (10, 2e-3), (10, 1e-3)]
+    take_part(__file__, told, history, {"S1": runs})
