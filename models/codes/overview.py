@@ -190,7 +190,8 @@ def figure(of: Iterable[Code]) -> Axes:
             _draw(one, ax)
         for ax in grid.flat[len(timed) :]:
             ax.set_visible(False)
-        for ax in grid[-1]:
+        for ax in grid.flat[max(len(timed) - 3, 0) : len(timed)]:  # the last of each column
+            ax.tick_params(labelbottom=True)
             ax.set_xlabel("CPU time over that of the starter")
         grid[rows // 2, 0].set_ylabel("error of q(t) over max|q|")
     first: Axes = grid[0, 0]
