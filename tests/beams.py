@@ -39,6 +39,23 @@ def unit_beam(slenderness):
     )
 
 
+def irregular(seed, sigma, count=None):
+    """A blade with twist, a cone, steps at its root, and centers that jump at each station."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(4, 30)) if count is None else count
+    x = np.concatenate(([0.0], np.sort(rng.uniform(0.0, 1.0, count - 2)), [1.0]))
+    steps = np.where(x > rng.uniform(0.05, 0.3), 1.0, rng.uniform(1.0, 3.0, count))
+    taper, axial = steps * (1.0 - 0.7 * x), 4e3 * steps * (1.0 - 0.5 * x)
+    stiffness = np.stack([axial, axial, axial, 0.08 * taper, 0.0625 * taper, taper], axis=1)
+    mass = np.outer(np.ones(count), [1.0, 3e-3, 2e-3, 1e-3])
+    mass[:, 0] -= 0.5 * x
+    centers = {
+        name: sigma * rng.standard_normal((count, 2)) for name in ("center", "tension", "shear")
+    }
+    blade = Blade.from_stations(x, stiffness, mass, twist=0.6 * rng.random(count), **centers)
+    return blade.with_precone(0.05)
+
+
 def told(blade, inertia, *out_of_plane):
     """A blade whose section tells its rotary inertia in the plane, and these out of it."""
     section = replace(blade.section, rotary_inertia=inertia)

@@ -10,13 +10,13 @@ import numpy as np
 from cyclopts import Parameter
 
 from analytic import linear_response, spin_up_response
-from analytic.input_checks import positive, whole_number
+from analytic.input_checks import whole_number
 
 from ..files.results import load
 from ..files.vtk import corners, save_vtk
 from ..runs.attributes import beam_of
 from .job import Flag, require_writable
-from .motion import chosen_times, slower_than_paper
+from .motion import slower_than_paper
 from .options import Number, Whole
 from .output import bar, print_text
 from .request import Request, uses
@@ -71,8 +71,7 @@ def animate(
     if kept is None:
         blade, spin_up = request.blade, request.motion.spin_up
         speed, ramp = spin_up.omega, spin_up.ramp_time
-        usual = max(chosen_times(blade, 12.0)[0], 2.0 * ramp)
-        duration = positive("duration", request.values.get("duration", usual), "s")
+        duration = request.motion.duration
     elif request.options or request.config or beside:
         raise ValueError(
             "--run shows a run as it is: leave out --omega, --ramp-time, --duration, --beside, "

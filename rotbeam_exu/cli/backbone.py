@@ -15,7 +15,7 @@ from analytic.blade_checks import require_planar
 from analytic.warning import warn
 
 from .job import Flag
-from .options import Amplitudes, Whole
+from .options import Numbers, Whole
 from .output import Format, bar, print_columns, print_note
 from .request import Request, uses
 
@@ -31,7 +31,7 @@ Refusal = tuple[str, str]
 def backbone(
     request: Request,
     *,
-    amplitude: Amplitudes = [0.05, 0.1, 0.15, 0.2],  # noqa: B006
+    amplitude: Numbers = None,
     variant: str | None = None,
     all_variants: Flag = False,
     exact: Flag = False,
@@ -47,7 +47,8 @@ def backbone(
     Parameters
     ----------
     amplitude
-        Amplitudes over the length, one or several.
+        Amplitudes over the length, one or several; by default 0.05 to 0.2, and 0.01 to 0.04 of a
+        blade from a table of stations.
     variant
         CI, CE, FrI, FrE, P3, P4, P5 of the paper; FrC, FrM or FrM5 of ours. Without one, the exact
         backbone, and of a blade in its plane FrM.
@@ -70,6 +71,8 @@ def backbone(
     $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
     blade, omega, theory = request.blade, request.omega, request.theory
+    if amplitude is None:
+        amplitude = [(1 if blade.section.at_stations else 5) * n / 100 for n in range(1, 5)]
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     variants = list(analytic.VARIANTS) if all_variants else [variant] if variant else []

@@ -14,7 +14,6 @@ import analytic
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
-from .motion import chosen_speeds
 from .options import Number, Whole
 from .output import bar, formatted, print_columns
 from .request import Request, uses
@@ -70,7 +69,7 @@ def campbell(
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
     blade = request.blade
-    usual = 2.0 * request.values.get("omega", chosen_speeds(blade, 6.0)[0])
+    usual = 2.0 * request.motion.spin_up.omega
     highest = usual if omega_max is None else omega_max
     ends = rotation_speed(omega_min, "omega_min"), rotation_speed(highest, "omega_max")
     speeds = np.linspace(*ends, whole_number("points", points, least=2))

@@ -12,6 +12,9 @@ from analytic.input_checks import positive
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's choices for its beam [rad/s, s, s, s]; other beams keep their ratios to ω_0."""
 
+_TABLE_SPEED, _TABLE_TIME, _TABLE_STEP = 0.25, 7.0, 14.0
+"""Of a table of stations, times the paper's: a rotor is run up to half its ω_0, not thrown."""
+
 _STEPS_PER_RAMP = 30
 """Steps that a chosen step leaves at least in a ramp; `simulate` refuses fewer than 20."""
 
@@ -29,13 +32,21 @@ class ChosenMotion:
 
 
 def chosen_speeds(blade: Blade, *of_paper: float) -> list[float]:
-    """Return speeds [rad/s] of the paper's beam, scaled to the same ω/ω_0, to two digits."""
-    return [_rounded(omega / slower_than_paper(blade), 2) for omega in of_paper]
+    """Return speeds [rad/s] of the paper's beam, scaled to the same ω/ω_0, to two digits.
+
+    Those of a table of stations are a quarter.
+    """
+    share = (_TABLE_SPEED if blade.section.at_stations else 1.0) / slower_than_paper(blade)
+    return [_rounded(omega * share, 2) for omega in of_paper]
 
 
 def chosen_times(blade: Blade, *of_paper: float, digits: int = 2) -> list[float]:
-    """Return times [s] of the paper's beam, scaled to the same ω_0 t, to two digits or more."""
-    return [_rounded(time * slower_than_paper(blade), digits) for time in of_paper]
+    """Return times [s] of the paper's beam, scaled to the same ω_0 t, to two digits or more.
+
+    Those of a table of stations are seven times as long.
+    """
+    longer = (_TABLE_TIME if blade.section.at_stations else 1.0) * slower_than_paper(blade)
+    return [_rounded(time * longer, digits) for time in of_paper]
 
 
 def refuse_rest(*speeds: float) -> None:
@@ -60,16 +71,18 @@ def chosen_motion(
     Speeds go with ω_0 and times with 1/ω_0, to two digits. The step is the next of 1, 2, 5 times a
     power of ten below, and at most a thirtieth of the ramp: the duration is a whole number of
     steps. A given duration or step is kept and the other fitted to it; a chosen duration leaves
-    five periods after the ramp.
+    five periods after the ramp, of a table of stations no more.
     """
+    table = blade.section.at_stations
     omega = chosen_speeds(blade, _OMEGA)[0] if omega is None else omega
     ramp_time = chosen_times(blade, _RAMP_TIME)[0] if ramp_time is None else ramp_time
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
     step = None if step is None else positive("step", step, "s")
-    fine = _one_two_five(min(_STEP * slower_than_paper(blade), spin_up.ramp_time / _STEPS_PER_RAMP))
+    small = _STEP * slower_than_paper(blade) * (_TABLE_STEP if table else 1.0)
+    fine = _one_two_five(min(small, spin_up.ramp_time / _STEPS_PER_RAMP))
     if duration is None:
         enough = spin_up.ramp_time + _STEADY_PERIODS * 2.0 * math.pi / blade.omega_0
-        duration = chosen_times(blade, _DURATION)[0]
+        duration = 0.0 if table else chosen_times(blade, _DURATION)[0]
         if duration < enough:
             duration = _rounded(enough, 2, up=True)
         if step is not None:

@@ -180,8 +180,13 @@ def _request(config: Path | None, file: RunFile, arguments: Mapping[str, Any]) -
         theory=Theory(**{**file.theory, **_theory(options.get("theory", ()))}),
         loads=loads_of(options) or file.loads,
         options=options,
-        values={**_PAPER, **file.numerics, **file.motion, **options},
+        values={**_PAPER, **_element_of(file.blade), **file.numerics, **file.motion, **options},
     )
+
+
+def _element_of(blade: Blade) -> dict[str, str]:
+    """Return the element that a table of stations has without being asked for: it is in space."""
+    return {"element": "space_exact"} if blade.section.at_stations else {}
 
 
 def _theory(pairs: Sequence[str]) -> dict[str, Any]:

@@ -39,7 +39,8 @@ def run(
     """Spin a beam up in Exudyn and measure the remaining oscillation.
 
     Writes netCDF, CSV and a figure. Without options it is the paper's beam, 6 rad/s in 3 s; for
-    another beam speed, times and step follow its ω_0.
+    another beam speed, times and step follow its ω_0. A table of stations is run up more slowly, to
+    half its ω_0, with elements `space_exact`.
 
     Parameters
     ----------

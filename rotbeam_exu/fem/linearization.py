@@ -114,6 +114,8 @@ class Linearization:
             settings.staticSolver.loadStepStart = 1.0  # when the speed is reached
             linear: Any = mbs.ComputeLinearizedSystem(settings, projectIntoConstraintNullspace=True)
         mass, stiffness, gyroscopic = (np.asarray(m) for m in linear[:3])
+        # Undamped, and at rest in the frame: what is not symmetric is round-off, which would grow.
+        stiffness = 0.5 * (stiffness + stiffness.T)
         axes, ends = model.line_frame(blade), np.stack((unloaded, unloaded + moved))
         moved, turned = np.diff(model.line(arm, ends), axis=0)[0], np.nan
         if model.twists:
@@ -163,6 +165,16 @@ class Linearization:
             )
         slowest = np.sort(np.abs(self._inverse.imag))[::-1][: 2 * count : 2]
         return np.asarray(1.0 / slowest) / self.units.time
+
+    def frequency_near(self, frequency: float) -> float:
+        """Return the natural frequency [rad/s] that is nearest in ratio to a given one."""
+        return nearest(self.frequencies(self.mass.shape[0]), frequency)[1]
+
+
+def nearest(frequencies: FloatArray, frequency: float) -> tuple[int, float]:
+    """Return place and value of the frequency that is nearest in ratio to a given one."""
+    place = int(np.argmin(np.abs(np.log(frequencies / frequency))))
+    return place, float(frequencies[place])
 
 
 def natural_frequencies(

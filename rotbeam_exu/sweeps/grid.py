@@ -237,8 +237,9 @@ def solve(case: RunCase) -> xr.Dataset:
     """
     try:
         run = run_case(case)
-        omega_n = _omega_n(case.blade, case.omega, case.model, case.elements)
-        measured = {**_steady(run), "omega_n": omega_n}
+        measured = _steady(run)
+        mesh = _mesh(case.blade, case.omega, case.model, case.elements)
+        measured["omega_n"] = mesh.frequency_near(measured["frequency"])
     except SimulationError as error:
         return xr.Dataset(attrs={"verdict": "failed", "failure": str(error)})
     result = run[["q"]]
@@ -260,5 +261,5 @@ def _steady(run: xr.Dataset) -> dict[str, float]:
 
 
 @lru_cache(maxsize=64)
-def _omega_n(blade: Blade, omega: float, element: Formulation, elements: int) -> float:
-    return float(Linearization.of(blade, omega, element, elements).frequencies(1)[0])
+def _mesh(blade: Blade, omega: float, element: Formulation, elements: int) -> Linearization:
+    return Linearization.of(blade, omega, element, elements)

@@ -10,7 +10,7 @@ from analytic.exact.linear.modes import driven_modes
 
 from ..fem.case import RunCase
 from ..fem.elements import formulation
-from ..fem.linearization import natural_frequencies
+from ..fem.linearization import Linearization, nearest
 from ..runs.oscillation import SteadyOscillation
 
 WORTH = 1e-2
@@ -31,6 +31,9 @@ _FINEST = 128
 _NOISE = 1e-7
 """Relative error of ω_n below which a finer mesh need not improve it: of the eigenvalues."""
 
+_DRIVEN = 6
+"""Modes among which that of a run in space is sought; a spin-up moves the lowest."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Assessment:
@@ -40,6 +43,9 @@ class Assessment:
     ----------
     theory : str
         Bernoulli-Euler, or Timoshenko for elements with shear and rotary inertia.
+    mode : str
+        The exact blade's mode whose frequency is nearest to that of the run: a twisted blade's tip
+        may swing in flap. In the plane it is lag 1.
     omega_n, refined_omega_n, exact_omega_n : float
         Natural frequency of the mesh, of one twice as fine, NaN of a very fine one, and of the
         exact beam [rad/s].
@@ -52,6 +58,7 @@ class Assessment:
     """
 
     theory: str
+    mode: str
     omega_n: float
     refined_omega_n: float
     exact_omega_n: float
@@ -120,7 +127,7 @@ class Assessment:
         lines = [
             (
                 "exact ω_n",
-                f"{self.exact_omega_n:.6f} rad/s ({self.theory}); "
+                f"{self.exact_omega_n:.6f} rad/s ({self.mode}, {self.theory}); "
                 f"error {self.mesh_error:+.1e}, "
                 f"{'of another limit' if self.elsewhere else 'due to the mesh'}",
             )
@@ -185,14 +192,17 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
     The exact beam is `linear_modes` and `periodic_orbits` of `analytic`: geometrically exact and
     extensible, with shear and rotary inertia where the element has them, which are worth 5e-5.
     """
-    theory = formulation(case.element).theory_of(case.blade)
+    model = formulation(case.element)
+    theory, count = model.theory_of(case.blade), _DRIVEN if model.leaves_plane else 1
+    modes = driven_modes(case.blade, case.omega, count, theory=theory)
+    place, exact_omega_n = nearest(modes.frequencies, steady.frequency)
     exact_frequency, why_not = math.nan, "" if exact else "it was not asked for"
     if case.exchanges_energy:
         why_not = "loads and damping make it another than the free orbit's"
     if not why_not:
         try:
             orbit = analytic.periodic_orbits(
-                case.blade, case.omega, [steady.amplitude], theory=theory
+                case.blade, case.omega, [steady.amplitude], theory=theory, mode=modes.names[place]
             )
             exact_frequency = float(orbit.frequency[0])
         except (RuntimeError, ValueError) as error:
@@ -201,13 +211,12 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
     def omega_n(elements: int) -> float:
         if elements > max(2 * _FINEST, case.elements):
             return math.nan
-        of = case.blade, case.omega
-        return float(natural_frequencies(*of, element=case.element, elements=elements, count=1)[0])
+        mesh = Linearization.of(case.blade, case.omega, model, elements)
+        return mesh.frequency_near(exact_omega_n)
 
-    exact_modes = driven_modes(case.blade, case.omega, theory=theory)
     return Assessment(
-        theory=theory.name, omega_n=omega_n(case.elements),
-        refined_omega_n=omega_n(2 * case.elements),
-        exact_omega_n=float(exact_modes.frequencies[0]), amplitude=steady.amplitude,
-        frequency=steady.frequency, exact_frequency=exact_frequency, why_not=why_not,
+        theory=theory.name, mode=modes.names[place], omega_n=omega_n(case.elements),
+        refined_omega_n=omega_n(2 * case.elements), exact_omega_n=exact_omega_n,
+        amplitude=steady.amplitude, frequency=steady.frequency, exact_frequency=exact_frequency,
+        why_not=why_not,
     )  # fmt: skip

@@ -27,8 +27,8 @@ def test_a_reed_is_shown_as_long_as_the_papers_beam(call, monkeypatch, tmp_path)
     assert code == 0
     assert "360 times slower" in out
     data = shown["data"]
-    # As many pictures as of the paper's beam over 12 s, 20 a second, to two digits of each.
-    assert abs(data.time.size / 241 - 1.0) < 0.05
+    # As many pictures as of the paper's beam over 15 s, 20 a second, to two digits of each.
+    assert abs(data.time.size / 301 - 1.0) < 0.05
     assert shown["rate"] == 20
     assert data.attrs["omega"] == 2200.0
     # The same motion, but for the two digits of the speed, 1.5 %, and of the ramp.

@@ -109,7 +109,7 @@ def test_the_summary_of_a_run(call, tmp_path):
     assert code == 0
     verdict = re.search(r"^verdict +equations solved; mesh too coarse, (\S+) %$", out, re.MULTILINE)
     assert "(fit only; mesh and step not included)" in out
-    assert "exact ω_n             3.730401 rad/s (Bernoulli-Euler)" in out
+    assert "exact ω_n             3.730401 rad/s (lag 1, Bernoulli-Euler)" in out
     shown = re.search(
         r"error (\S+) in total; relative to ω_n of this mesh (\S+) \(step and mesh\)", out
     )

@@ -149,11 +149,14 @@ class SpaceExact(Sheared, FrameNodes):
         add_force(mbs, chain.nodes, force=force, derivatives=derivatives)
 
     def axial_strain(self, blade: Blade, coordinates: FloatArray) -> FloatArray:
-        """Strain of the line along the normal of the sections, of each element."""
+        """Strain along the normal, the mean of each section: its normal force over its EA.
+
+        That of the line would be of bending, where the line is far from the tension centers.
+        """
         row = _Row(self, blade, coordinates.shape[-2] - 1)
         strain = row.strains(row.add.gather(coordinates.reshape(*coordinates.shape[:-2], -1)))
-        arms = 0.5 * (row.arms[:-1] + row.arms[1:])
-        return np.asarray(strain[..., 0] + np.cross(arms, strain[..., 3:])[..., 0])
+        force = np.sum(row.stiffness[:, 0] * strain, axis=-1)
+        return np.asarray(row.compliance * force)
 
     def energy_and_momentum(
         self, blade: Blade, mass: Any, turning: Any, coordinates: FloatArray,
@@ -182,7 +185,7 @@ class _Row:
 
     Stiffness (elements, 6, 6), with strains in the order ε, γ2, γ3, κ1, κ2, κ3, and inertia
     (elements, 3, 3) are about the centers of mass, which are at `arms` (nodes, 3) from the line in
-    axes of the section.
+    axes of the section; `compliance` (elements,) is the mean of 1/EA.
     """
 
     def __init__(self, element: SpaceExact, blade: Blade, elements: int) -> None:
@@ -200,6 +203,11 @@ class _Row:
             at = unit.flexibility(x, theory, blade.slenderness)
             return weight(x) * (onto @ at @ np.swapaxes(onto, 1, 2))
 
+        def stretched(x: FloatArray) -> FloatArray:
+            # Where centers jump, the mean of an element's flexibility is mostly of bending.
+            at = unit.flexibility(x, theory, blade.slenderness)
+            return 1.0 / np.linalg.inv(at)[:, :1, :1]
+
         def spread(x: FloatArray) -> FloatArray:
             xi = cells(mesh.ends, x)[1]
             both = np.stack((1.0 - xi, xi), axis=1)
@@ -211,6 +219,7 @@ class _Row:
         lever = np.repeat([1.0, L], 3)
         scale = blade.bending_stiffness / L**2 * np.outer(lever, lever)
         self.stiffness = scale * np.linalg.inv(mesh.mean(soft) / mesh.mean(weight))
+        self.compliance = mesh.mean(stretched)[:, 0, 0] * L**2 / blade.bending_stiffness
         self.coupling = self.stiffness * (1.0 - np.eye(6))
         self.mass = mesh.sections.mass_per_length
         # Of functions of both ends; those of the mean mass are Exudyn's.

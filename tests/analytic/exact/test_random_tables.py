@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from analytic import (
-    Blade,
     Damping,
     RotbeamWarning,
     SpinUp,
@@ -19,6 +18,7 @@ from analytic import (
     steady_state,
 )
 from analytic.exact.continuum.unit import StationUnit
+from tests.beams import irregular
 
 SIGMAS = (0.001, 0.005, 0.03)  # of the centers, over the length
 CASES = (
@@ -27,23 +27,6 @@ CASES = (
     (0.03, Theory()),
     (0.03, Theory(extension=False)),
 )
-
-
-def table(seed, sigma, count=None):
-    """A blade with twist, a cone, steps at its root, and centers that jump at each station."""
-    rng = np.random.default_rng(seed)
-    count = int(rng.integers(4, 30)) if count is None else count
-    x = np.concatenate(([0.0], np.sort(rng.uniform(0.0, 1.0, count - 2)), [1.0]))
-    steps = np.where(x > rng.uniform(0.05, 0.3), 1.0, rng.uniform(1.0, 3.0, count))
-    taper, axial = steps * (1.0 - 0.7 * x), 4e3 * steps * (1.0 - 0.5 * x)
-    stiffness = np.stack([axial, axial, axial, 0.08 * taper, 0.0625 * taper, taper], axis=1)
-    mass = np.outer(np.ones(count), [1.0, 3e-3, 2e-3, 1e-3])
-    mass[:, 0] -= 0.5 * x
-    centers = {
-        name: sigma * rng.standard_normal((count, 2)) for name in ("center", "tension", "shear")
-    }
-    blade = Blade.from_stations(x, stiffness, mass, twist=0.6 * rng.random(count), **centers)
-    return blade.with_precone(0.05)
 
 
 @pytest.fixture
@@ -60,7 +43,7 @@ def by_panels(monkeypatch):
 @pytest.mark.parametrize(("sigma", "theory"), CASES)
 def test_errors_are_not_larger_than_told(sigma, theory, by_panels):
     """Polynomials on panels between stations need no answers: all kinks are at their ends."""
-    blade = table(3, sigma, 6)
+    blade = irregular(3, sigma, 6)
     modes = linear_modes(blade, 4.0, 6, theory=theory)
     state = steady_state(blade, 4.0, force=(0.0, 0.02, 0.05), theory=theory)
     assert max(modes.error, state.error) < 1e-6
@@ -76,7 +59,7 @@ def test_errors_are_not_larger_than_told(sigma, theory, by_panels):
 @pytest.mark.parametrize(("count", "tolerance"), [(6, 1e-3), (6, 1e-5), (10, 1e-6)])
 def test_the_error_of_a_spin_up_is_not_larger_than_told(by_panels, count, tolerance):
     """By functions from the motion's own forces; those of modes alone do not settle to 1e-6."""
-    blade, motion, times = table(3, 0.03, count), SpinUp(omega=3.0, ramp_time=2.0), [1.0, 2.0]
+    blade, motion, times = irregular(3, 0.03, count), SpinUp(omega=3.0, ramp_time=2.0), [1.0, 2.0]
     found = spin_up_response(blade, motion, times, tolerance=tolerance)
     assert found.error < tolerance
     by_panels()
@@ -90,7 +73,7 @@ def test_the_error_of_a_spin_up_is_not_larger_than_told(by_panels, count, tolera
 @pytest.mark.slow
 def test_orbits_and_forced_responses_are_those_by_polynomials(by_panels):
     """On functions from their own forces; amplitudes are known to 1e-6, frequencies as told."""
-    blade = table(3, 0.005, 5)
+    blade = irregular(3, 0.005, 5)
     damped = blade.with_damping(Damping.from_ratio(blade, 1, 0.05))
 
     def found():
@@ -110,7 +93,7 @@ def test_orbits_and_forced_responses_are_those_by_polynomials(by_panels):
 
 def test_fifty_stations_with_steps_of_three():
     """As an owner of a real blade has them."""
-    modes = linear_modes(table(7, 0.03, 50), 4.0, 6)
+    modes = linear_modes(irregular(7, 0.03, 50), 4.0, 6)
     assert modes.error < 1e-6
     assert modes.model.size < 250
 
@@ -120,7 +103,7 @@ def test_fifty_stations_with_steps_of_three():
 @pytest.mark.parametrize("sigma", SIGMAS)
 def test_forty_tables_are_answered(sigma, theory):
     for seed in range(40):
-        blade = table(seed, sigma)
+        blade = irregular(seed, sigma)
         modes = linear_modes(blade, 4.0, 6, theory=theory)
         assert modes.error < 1e-6
         finer = linear_modes(blade, 4.0, 6, theory=theory, tolerance=1e-9)
@@ -130,7 +113,7 @@ def test_forty_tables_are_answered(sigma, theory):
 def test_short_of_its_tolerance_an_answer_comes_with_a_warning(monkeypatch):
     """And one that is not known to 1e-3 is refused."""
     monkeypatch.setattr("analytic.exact.continuum.space.SpaceContinuum.most_functions", 25)
-    blade = table(3, 0.03, 12)
+    blade = irregular(3, 0.03, 12)
     with pytest.warns(RotbeamWarning, match="more than the tolerance of 1e-10"):
         modes = linear_modes(blade, 4.0, 6, tolerance=1e-10)
     assert 1e-10 < modes.error < 1e-3
@@ -146,4 +129,4 @@ def test_short_of_its_tolerance_an_answer_comes_with_a_warning(monkeypatch):
 def test_tolerances_out_of_reach_are_refused(tolerance):
     for verb in (linear_modes, steady_state):
         with pytest.raises((ValueError, TypeError), match="tolerance"):
-            verb(table(3, 0.001, 4), 4.0, tolerance=tolerance)
+            verb(irregular(3, 0.001, 4), 4.0, tolerance=tolerance)
