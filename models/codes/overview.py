@@ -76,9 +76,9 @@ class Code:
 
     @property
     def fit(self) -> Convergence | None:
-        """Errors of mesh and step in CASE; None if the runs leave them open."""
+        """Errors of mesh and step in CASE; None if the runs leave them open by all of q."""
         fit = self.found.findings[CASE]["history"].runs
-        return fit if fit is not None and math.isfinite(fit.bar) else None
+        return fit if fit is not None and fit.bar < 1.0 else None
 
     def needed(self, error: float) -> tuple[float, float]:
         """Return the mesh and the step [s] of least work whose errors add up to one, by the fit.

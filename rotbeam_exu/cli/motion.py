@@ -13,7 +13,7 @@ _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's choices for its beam [rad/s, s, s, s]; other beams keep their ratios to ω_0."""
 
 _TABLE_SPEED, _TABLE_TIME, _TABLE_STEP = 0.25, 7.0, 14.0
-"""Of a table of stations, times the paper's: a rotor is run up to half its ω_0, not thrown."""
+"""Speed, times and step of a table over the paper's: a rotor is run up to half its ω_0."""
 
 _STEPS_PER_RAMP = 30
 """Steps that a chosen step leaves at least in a ramp; `simulate` refuses fewer than 20."""

@@ -257,8 +257,13 @@ class SteadyBlade:
 
     def resolving(self, modes: int) -> Self:
         """Return the blade on more functions, on a table with the answers of the lowest modes."""
+        if not self.model.answers:
+            return self.onto(None)
         free = self.unloaded(self.rate)
-        return self.onto(forces_caused(free, modes) if self.model.answers else None)
+        try:
+            return self.onto(forces_caused(free, modes))
+        except np.linalg.LinAlgError:  # no modes where a moment that keeps its direction bends far
+            return self.onto(forces_caused(free, 0))
 
     def onto(self, caused: FloatArray | None, seen: float | None = None) -> Self:
         """Return the blade on more functions, on a table with the forces `caused` by answers."""

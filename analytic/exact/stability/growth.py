@@ -213,8 +213,8 @@ class GrowthOutOfPlane:
     >>> from analytic import Beam, Rectangle, periodic_orbits
     >>> strip = Beam.reference().with_shape(Rectangle())
     >>> growth = periodic_orbits(strip, 4.0, [0.01, 0.2]).out_of_plane()
-    >>> print(growth.stable, growth.kind, growth.growth_rate.round(1))
-    [ True False] ('', 'divergence') [  0.  120.8]
+    >>> print(growth.stable, growth.kind, growth.growth_rate.round())
+    [ True False] ('', 'divergence') [  0. 121.]
     """
 
     blade: Blade

@@ -1,10 +1,14 @@
-"""BeamDyn: one Legendre spectral element, whose degree is raised; its driver led by Eq. 1."""
+"""BeamDyn: one Legendre spectral element, whose degree is raised; its driver led by Eq. 1.
+
+Here with Gauss's quadrature; `beamdyn_as_used` has the rule and the damping of its users.
+"""
 
 import os
 import shutil
 import sys
 import tempfile
-from functools import cache
+from collections.abc import Mapping, Sequence
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +23,9 @@ HERE, SOURCES = Path(__file__).parent, os.environ.get("OPENFAST", "")
 MODULES = "cmake", "modules/nwtc-library", "modules/version", "modules/beamdyn"
 SHEAR, TURNING = 100.0, 1e-3
 """GA over EA, and rotary inertia over m EI/EA: of a beam that hardly shears, as slender ones."""
+
+STATIONS = 49
+"""Stations of the table as it is used, those of NREL's 5 MW blade."""
 
 
 @cache
@@ -41,9 +48,15 @@ def row(values) -> str:
     return " ".join(f"{value:.15E}" for value in values)
 
 
-def files(case: Case, degree: int, h: float) -> dict[str, str]:
-    """Return the driver's file, the primary one and that of the sections, z along the blade."""
+def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str, list[str]]:
+    """Return the driver's file, the primary one and that of the sections.
+
+    Its z is along the blade, its x the axis of rotation and its y against q.
+    """
     beam, end = case.blade, case.duration
+    weight = sum(load.gravity for load in case.loads)
+    damping = beam.damping.bending
+    stations = np.linspace(0.0, 1.0, STATIONS if used else 2)
     EA, EI, m = beam.axial_stiffness, beam.bending_stiffness, beam.mass_per_length
     turning = TURNING * m * EI / EA
     matrices = [
@@ -58,14 +71,16 @@ def files(case: Case, degree: int, h: float) -> dict[str, str]:
     return {
         "driver.inp": [
             "-", "-", "-", "True DynamicSolve", "0 t_initial", f"{end} t_final", f"{h} dt", "-",
-            *zeros[:3], "-", *zeros[:3], "-", "-", *(row(line) for line in np.eye(3)),
+            "0 g", f"{weight} g", "0 g", "-", *zeros[:2], f"{beam.hub_radius} GlbPos(3)", "-", "-",
+            *(row(line) for line in np.eye(3)),
             "True GlbRotBladeT0", "-", f"{case.rotation.omega} RootVel(4)", *zeros[:2], "-",
             *zeros, *zeros, "0 NumPointLoads", "-", "-", "-", '"primary.inp" InputFile', "-",
             "0 WrVTK", "15 VTK_fps",
         ],
         "primary.inp": [
-            "-", "-", "-", "False Echo", "False QuasiStaticInit", "0.9 rhoinf", "1 quadrature",
-            "1 refine", "1 n_fact", f"{h} DTBeam", '"DEFAULT" load_retries', "20 NRMax",
+            "-", "-", "-", "False Echo", "False QuasiStaticInit", f"{0.0 if used else 0.9} rhoinf",
+            f"{2 if used else 1} quadrature", "1 refine", "1 n_fact", f"{h} DTBeam",
+            '"DEFAULT" load_retries', "20 NRMax",
             "1e-6 stop_tol", "False tngt_stf_fd", "False tngt_stf_comp",
             '"DEFAULT" tngt_stf_pert', '"DEFAULT" tngt_stf_difftol', "True RotStates", "-",
             "1 member_total", "3 kp_total", "1 3", "-", "-",
@@ -74,18 +89,19 @@ def files(case: Case, degree: int, h: float) -> dict[str, str]:
             '"ES23.15E3" OutFmt', "1 NNodeOuts", "1 OutNd", "OutList", '"TipTDyr"', "END", "-",
         ],
         "blade.inp": [
-            "-", "-", "-", "2 station_total", "0 damp_type", "-", "-", "-", row(6 * [0.0]), "-",
+            "-", "-", "-", f"{stations.size} station_total", f"{int(damping > 0.0)} damp_type", "-",
+            "-", "-", row((0.0, 0.0, 0.0, damping, damping, 0.0)), "-",
             "1 n_modes", "0.01 zeta", "-",
-            *(line for eta in "01" for line in (eta, *matrices)),
+            *(line for eta in stations for line in (f"{eta:.15f}", *matrices)),
         ],
     }  # fmt: skip
 
 
-def history(case: Case, degree: int, h: float):
+def history(case: Case, degree: int, h: float, *, used: bool = False):
     """Return q from the tip's displacement across the blade, in the frame of the root."""
     program = driver()
     with tempfile.TemporaryDirectory() as folder:
-        for name, lines in files(case, degree, h).items():
+        for name, lines in files(case, degree, h, used=used).items():
             Path(folder, name).write_text("\n".join(lines) + "\n")
         ramp = {**os.environ, "RAMP_T": repr(case.rotation.ramp_time)}
         output_of([program, "driver.inp"], cwd=folder, env=ramp)
@@ -95,15 +111,23 @@ def history(case: Case, degree: int, h: float):
     return sampled(case, time, -across)
 
 
-if __name__ == "__main__":
+def take_part_as(
+    script: str, code: str, how: str, runs: Mapping[str, Sequence[tuple[int, float]]], **options
+):
+    """Run and record BeamDyn set up in one of the ways."""
     if not SOURCES:
         print("BeamDyn is left out: set OPENFAST to a folder with OpenFAST's sources")
-        sys.exit()
+        return
     told = Declaration(
-        code="BeamDyn", version="OpenFAST 4, commit 2895884d2", licence="Apache-2.0",
+        code=code, version="OpenFAST 4, commit 2895884d2", licence="Apache-2.0",
         url="https://github.com/OpenFAST/openfast", order_in_step=2.0,
-        element="one Legendre spectral element, elements are its degree; Gauss's quadrature",
+        element=f"one Legendre spectral element, elements are its degree; {how}",
     )  # fmt: skip
     driver()
+    take_part(script, told, partial(history, **options), runs)
+
+
+if __name__ == "__main__":
     runs = [(8, 4e-3), (10, 4e-3), (12, 4e-3), (14, 4e-3), (10, 8e-3), (10, 2e-3), (10, 1e-3)]
-    take_part(__file__, told, history, {"S1": runs})
+    cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+d", "S1+g"
+    take_part_as(__file__, "BeamDyn", "Gauss's quadrature", dict.fromkeys(cases, runs))

@@ -206,7 +206,7 @@ class _Row:
         def stretched(x: FloatArray) -> FloatArray:
             # Where centers jump, the mean of an element's flexibility is mostly of bending.
             at = unit.flexibility(x, theory, blade.slenderness)
-            return 1.0 / np.linalg.inv(at)[:, :1, :1]
+            return np.asarray(1.0 / np.linalg.inv(at)[:, :1, :1])
 
         def spread(x: FloatArray) -> FloatArray:
             xi = cells(mesh.ends, x)[1]

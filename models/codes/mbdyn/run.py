@@ -1,0 +1,99 @@
+"""MBDyn: beams of three nodes with lumped bodies, their root driven by Eq. 1."""
+
+import math
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from common import output_of, sampled, take_part
+
+from rotbeam_exu.verification.case import Case
+from rotbeam_exu.verification.submission import Declaration
+
+PROGRAM = os.environ.get("WITH_MBDYN", "")
+SHEAR, TURNING = 1.0, 0.1
+"""GA over EA, and rotary inertia over m EI/EA: of a beam that hardly shears, as slender ones."""
+
+RADIUS = 0.6
+"""Spectral radius of the multistep rule, that of MBDyn's manual."""
+
+
+def speed(case: Case) -> str:
+    """Return θ'(t) of Eq. 1 as MBDyn reads it."""
+    of = case.rotation
+    share, turn = f"Time/{of.ramp_time!r}", 2.0 * math.pi
+    ramp = f"({share}-sin({turn!r}*{share})/{turn!r})"
+    return f"{of.omega!r}*((Time<{of.ramp_time!r})*{ramp}+(Time>={of.ramp_time!r}))"
+
+
+def model(case: Case, elements: int, h: float) -> list[str]:
+    """Return the lines of the input file; the blade lies along x and turns about z."""
+    blade, count = case.blade, 2 * elements + 1
+    EA, EI, m = blade.axial_stiffness, blade.bending_stiffness, blade.mass_per_length
+    cell, hub = blade.length / (count - 1), blade.hub_radius
+    stiffness = f"diag, {EA!r}, {SHEAR * EA!r}, {SHEAR * EA!r}, {EI!r}, {EI!r}, {EI!r}"
+    law = f"linear elastic generic, {stiffness}"
+    if tau := blade.damping.bending:
+        law = f"linear viscoelastic generic, {stiffness}, diag, 0., 0., 0., 0., 0., {tau * EI!r}"
+    masses = m * cell * np.where(np.arange(count) % (count - 1), 1.0, 0.5)
+    inertias = TURNING * EI / EA * masses
+    masses[-1] += sum(one.mass for one in blade.point_masses)
+    weight = sum(load.gravity for load in case.loads)
+    nodes = [
+        f"structural: {i + 1}, dynamic, {hub + i * cell!r}, 0., 0., eye, null, null, "
+        f"output, {'yes' if i == count - 1 else 'no'};"
+        for i in range(count)
+    ]
+    bodies = [
+        f"body: {i + 1}, {i + 1}, {mass!r}, null, diag, {2.0 * j!r}, {j!r}, {j!r};"
+        for i, (mass, j) in enumerate(zip(masses.tolist(), inertias.tolist(), strict=True))
+    ]
+    beams = [
+        f"beam3: {e + 1}, {2 * e + 1}, null, {2 * e + 2}, null, {2 * e + 3}, null, eye, {law}, "
+        "same, same;"
+        for e in range(elements)
+    ]
+    return [
+        "begin: data; problem: initial value; end: data;", "begin: initial value;",
+        f"initial time: 0.; final time: {case.duration!r}; time step: {h!r}; method: ms, {RADIUS};",
+        "tolerance: 1.e-5; max iterations: 100; derivatives tolerance: 1e3;",
+        "derivatives max iterations: 10; linear solver: naive;", "end: initial value;",
+        "begin: control data;", f"structural nodes: {count + 1}; rigid bodies: {count};",
+        f"beams: {elements}; joints: 2;", "gravity;" if weight else "", "output precision: 14;",
+        "default output: none; default output: structural nodes;", "end: control data;",
+        "begin: nodes;", "structural: 1000, static, null, eye, null, null;", *nodes, "end: nodes;",
+        "begin: elements;", "joint: 1, clamp, 1000, node, node;",
+        f'joint: 2, axial rotation, 1000, null, 1, {-hub!r}, 0., 0., string, "{speed(case)}";',
+        *bodies, *beams, f"gravity: uniform, 0., -1., 0., {weight!r};" if weight else "",
+        "end: elements;",
+    ]  # fmt: skip
+
+
+def history(case: Case, elements: int, h: float):
+    """Return q from the places of the tip, which do not turn."""
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "blade.mbd").write_text("\n".join(model(case, elements, h)) + "\n")
+        output_of([PROGRAM, "-s", "-f", "blade.mbd", "-o", "blade"], cwd=folder)
+        rows = np.genfromtxt(Path(folder, "blade.mov"), usecols=(0, 1, 2))
+    tip = rows[rows[:, 0] == 2 * elements + 1, 1:] @ (1.0, 1j)
+    time = h * np.arange(tip.size)
+    return sampled(case, time, (tip * np.exp(-1j * case.rotation.angle(time))).imag)
+
+
+if __name__ == "__main__":
+    if not PROGRAM:
+        print("MBDyn is left out: set WITH_MBDYN to its program")
+        sys.exit()
+    told = Declaration(
+        code="MBDyn", version="1.7.3", licence="GPL-2.1",
+        url="https://public.gitlab.polimi.it/DAER/mbdyn", order=2.0, order_in_step=2.0,
+        element=f"beam3, three nodes, lumped bodies; multistep rule with spectral radius {RADIUS}",
+    )  # fmt: skip
+    runs = [(16, 4e-3), (32, 4e-3), (64, 4e-3), (32, 8e-3), (32, 2e-3)]
+    cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+m", "S1+d", "S1+g"
+    finer = [(32, 4e-3), (64, 4e-3), (128, 4e-3), (64, 2e-3), (64, 1e-3)]
+    take_part(__file__, told, history, {**dict.fromkeys(cases, runs), "S4": finer})
