@@ -50,7 +50,7 @@ def forces_caused(steady: Any, count: int) -> FloatArray:
     """
     model, by, q = steady.model, steady.by(), steady.equilibrium
     if not count:
-        return model.forces_caused(q[None], *np.zeros((2, 1, q.size)), by)
+        return np.asarray(model.forces_caused(q[None], *np.zeros((2, 1, q.size)), by))
     frequencies, shapes = (part[..., :count] for part in steady.vibration)
     size = np.einsum("ik,ij,jk->k", shapes.conj(), model.functions.stiffness, shapes).real
     still = np.zeros((1, q.size))
