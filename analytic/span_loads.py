@@ -21,6 +21,7 @@ from .input_checks import (
 )
 from .lazily import interpolate
 from .load import Load
+from .quadrature import gauss_points
 
 _NONE = (0.0, 0.0, 0.0)
 _MOST_NUMBERS = 1_000_000
@@ -49,6 +50,10 @@ class SpanLoad(Load, abstract=True):
                 f"phase = {self.phase:g} rad is that of a cosine: give its frequency, or leave it "
                 "out of a constant load"
             )
+
+    def points(self, cells: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return points [m] and weights [m, or 1] to sum `wrench` over cells between places [m]."""
+        raise NotImplementedError
 
     def _wave(self, phase: FloatArray) -> FloatArray:
         return np.asarray(np.cos(phase + self.phase))[:, None, None]
@@ -135,6 +140,11 @@ class PointLoad(SpanLoad):
     def stations(self) -> tuple[float, ...]:  # type: ignore[override]
         """The position, none of the tip."""
         return () if self.position is None else (self.position,)
+
+    def points(self, cells: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the position, with the weight one."""
+        at = cells[-1] if self.position is None else self.position
+        return np.array([at]), np.ones(1)
 
     def wrench(self, phase: FloatArray, x: FloatArray) -> FloatArray:
         """Return force and moment (samples, 1, 6)."""
@@ -245,6 +255,14 @@ class LoadTable(SpanLoad):
     def _over_time(self) -> Any:
         values = np.concatenate((self.force, self.moment), axis=-1)
         return values if self.time is None else interpolate.CubicSpline(self.time, values)
+
+    def points(self, cells: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return Gauss points between cells and stations, with their lengths."""
+        ends = np.union1d(cells, self.x)
+        ends = ends[(ends >= self.x[0]) & (ends <= self.x[-1])]
+        inner, weights = gauss_points(2)  # a linear load by a linear function
+        width = np.diff(ends)
+        return (ends[:-1, None] + np.outer(width, inner)).ravel(), np.outer(width, weights).ravel()
 
     def wrench(self, phase: FloatArray, x: FloatArray) -> FloatArray:
         """Return force and moment per length, (samples, places, 6)."""

@@ -10,6 +10,7 @@ from typing import Any, cast
 
 from analytic import Blade, SteadyRotation
 from analytic.description import describe, from_description
+from analytic.exact.continuum.loading import loaded
 from analytic.input_checks import positive, whole_number
 from analytic.loads import Load, loads_in_time, rippled
 from analytic.motion import Rotation, SpeedChange
@@ -65,11 +66,12 @@ class RunCase:
             )
         for load in self.loads:
             if load.acts_on == "span":
-                raise ValueError(
-                    f"Exudyn's elements take loads on all mass, on the length and across the tip, "
-                    f"and {load} acts on the span: take analytic.spin_up_response, or on the "
-                    "command line rotbeam reference"
-                )
+                if not self.model.takes_wrenches:
+                    raise ValueError(
+                        f"element {self.model.name!r} takes loads on all mass, on the length and "
+                        f"across the tip, and {load} acts on the span: take element='space_exact'"
+                    )
+                loaded((load,), self.blade)  # refuses a place beyond the tip
         if self.frame == "rotating" and not self.model.constant_mass:
             raise ValueError(
                 f"element {self.model.name!r} is solved in the inertial frame, its inertia being "

@@ -26,6 +26,7 @@ from ..lazily import xr
 from ..runs.shape import shape_of
 from .case import RunCase
 from .elements.formulation import Formulation
+from .loading import is_on_span
 from .mesh import Mesh
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
@@ -253,8 +254,15 @@ class _Masses:
         dx = np.outer(np.diff(ends), weights).ravel()
         x = (ends[:-1, None] + np.outer(np.diff(ends), inner)).ravel()
         at, none = mesh.along(x), np.zeros(1)
-        # Behind the points of the blade come those of its point masses, and the tip.
+        # Behind the points of the blade come its point masses, points of loads, and the tip.
         bodies = [(one.position, one.mass, one.inertia) for one in blade.point_masses]
+        self._on_span = []
+        for load in filter(is_on_span, units.loads(case.loads)):
+            points, weights = load.points(blade.length * ends)
+            first = x.size + len(bodies)
+            at_points = slice(first, first + points.size)
+            self._on_span.append((load, at_points, weights[:, None]))
+            bodies += [(point, 0.0, 0.0) for point in points]
         places, masses, inertias = np.array(bodies).reshape(-1, 3).T
         self._x = np.concatenate((x, places / blade.length, none + 1.0))
         self._weights = {
@@ -306,15 +314,23 @@ class _Masses:
         f = -self._weights["mass"][:, None] * a[:, :count]
         on_line = -self._beam.damping.external * self._weights["length"][:, None] * v[:, :count]
         for load in self._units.loads(case.loads):
-            if load.acts_on is not None:
+            if load.acts_on not in (None, "span"):
                 phase = (load.frequency or 0.0) * time / per_unit
                 force = load.force(phase, angle, model.setting(self._beam))
                 parts = np.stack((force.real, force.imag, load.lift(phase)), axis=-1)
                 push = self._weights[load.acts_on][:, None] * parts[:, None]
                 total = f if load.acts_on == "mass" else on_line
                 total += push
-        couple = np.cross(r[:, :count], f) + np.cross(line[:, :count], on_line)
-        f, section = f + on_line, model.sections(e)
+        section, moments = model.sections(e), np.zeros_like(f)
+        for span_load, at, weights in self._on_span:
+            x = self._beam.length * self._x[at]
+            wrench = span_load.wrench(span_load.phase_at(time / per_unit), x)
+            turn = section[:, at] if span_load.following else model.line_frame(self._beam)
+            acting = zip((on_line, moments), np.split(weights * wrench, 2, axis=-1), strict=True)
+            for total, part in acting:
+                total[:, at] += (turn @ part[..., None])[..., 0]
+        couple = np.cross(r[:, :count], f) + np.cross(line[:, :count], on_line) + moments
+        f = f + on_line
         if self._second.any():
             ahead, d, behind = (
                 np.swapaxes(model.sections(e + h * rates + 0.5 * h**2 * change)[:, :count], -1, -2)

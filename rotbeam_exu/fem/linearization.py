@@ -94,11 +94,10 @@ class Linearization:
             if weight:
                 loading = Loading(model, unit_beam, elements, built.mass, units.loads(weight))
                 shape, none = (1, len(built.nodes), -1), np.zeros(1)
-                nothing = [(np.zeros((1, 3)), 0.0, 0.0)]
                 add_force(
                     mbs, built.nodes,
                     force=lambda t, e, rates: t * loading.forces(none, none, e.reshape(shape))[0],
-                    derivatives=lambda t, e: nothing,
+                    derivatives=lambda t, e: [(loading.slopes(0.0, e.reshape(shape[1:])), t, 0.0)],
                 )  # fmt: skip
             mbs.Assemble()
             try:

@@ -2,7 +2,8 @@
 
 As in `analytic.exact.driven.transient` a load is a complex force in the frame of the clamp, with
 its real part along the blade, and one along the axis of rotation. It acts per mass, per length, or
-on the tip. A ripple of the speed is no force but part of the clamp's rotation. External damping is
+on the tip. Forces and moments on the span go to the nodes by functions that are linear in each
+element. A ripple of the speed is no force but part of the clamp's rotation. External damping is
 -d ṙ per length with the velocity relative to the clamp,
 
     f = -D (e' - θ' (J e + a)),      D = d ∫SᵀS dx,
@@ -16,20 +17,58 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
+from typing import TypeGuard
 
 import numpy as np
 
 from analytic import Blade
 from analytic.arrays import FloatArray
-from analytic.lazily import sparse
+from analytic.lazily import sparse, spatial
 from analytic.loads import Load
 from analytic.motion import Rotation
+from analytic.span_loads import SpanLoad
 
 from ..runs import Frame
 from .elements.energy_body import add_force, triplets
 from .elements.formulation import Chain, Formulation
 from .lazily import exudyn
+from .mesh import Mesh, cells
 from .solver import mass_matrix
+
+_STEP = 1e-6
+"""Step of central differences of Euler parameters, which are of the size of one."""
+
+
+def is_on_span(load: Load) -> TypeGuard[SpanLoad]:
+    """Return whether a load is a force and a moment on the span."""
+    return load.acts_on == "span"
+
+
+class _OnSpan:
+    """A load on the span, on the nodes of a mesh."""
+
+    def __init__(self, model: Formulation, blade: Blade, elements: int, load: SpanLoad) -> None:
+        mesh = Mesh(blade=blade, elements=elements)
+        self._model, self._load, self._frame = model, load, model.line_frame(blade)
+        self._x, weights = load.points(mesh.places)
+        cell, xi = cells(mesh.places, self._x)
+        self._onto = np.zeros((mesh.places.size, self._x.size))
+        for node, share in ((cell, 1.0 - xi), (cell + 1, xi)):
+            np.add.at(self._onto, (node, np.arange(self._x.size)), share * weights)
+
+    def forces(
+        self, t: FloatArray, coordinates: FloatArray, arms: FloatArray, angle: FloatArray
+    ) -> FloatArray:
+        """Return nodal forces (samples, nodes, n)."""
+        at_points = self._load.wrench(self._load.phase_at(t), self._x)
+        wrench = np.einsum("np,spk->snk", self._onto, at_points)
+        none = np.zeros_like(wrench)
+        if self._load.following:
+            return self._model.wrenched(arms, coordinates, none, wrench)
+        about = spatial.transform.Rotation.from_rotvec(np.multiply.outer(angle, [0.0, 0.0, 1.0]))
+        turn = (about.as_matrix() @ self._frame)[:, None]
+        parts = [(turn @ part[..., None])[..., 0] for part in np.split(wrench, 2, axis=-1)]
+        return self._model.wrenched(arms, coordinates, np.concatenate(parts, axis=-1), none)
 
 
 class Loading:
@@ -46,7 +85,8 @@ class Loading:
         mass: sparse.csr_array,
         loads: Sequence[Load],
     ) -> None:
-        forces = [(load, load.acts_on) for load in loads if load.acts_on is not None]
+        forces = [(load, load.acts_on) for load in loads if load.acts_on not in (None, "span")]
+        self._spans = [_OnSpan(model, blade, elements, one) for one in loads if is_on_span(one)]
         external = blade.damping.external
         size, per_node = mass.shape[0], model.angles.size
         of_length = sparse.csr_array(mass.shape)
@@ -65,7 +105,7 @@ class Loading:
         self._arms = model.arms(blade, elements)
 
     def __bool__(self) -> bool:
-        return bool(self._pushes) or self._drag.nnz > 0
+        return bool(self._pushes or self._spans) or self._drag.nnz > 0
 
     def _pushed(
         self, t: FloatArray, angle: FloatArray, setting: float
@@ -95,7 +135,33 @@ class Loading:
         """
         setting = self._setting if setting is None else setting
         on_mass, on_line = self._pushed(t, angle, setting)
-        return on_mass + self._onto_nodes(coordinates, on_line)
+        return on_mass + self._onto_nodes(coordinates, on_line) + self._on_span(t, coordinates)
+
+    def _on_span(
+        self, t: FloatArray, coordinates: FloatArray, angle: FloatArray | float = 0.0
+    ) -> FloatArray:
+        """Return nodal forces (samples, n) of loads on the span, on axes ahead by an angle."""
+        result = np.zeros(coordinates.shape)
+        for one in self._spans:
+            result += one.forces(t, coordinates, self._arms, np.broadcast_to(angle, t.shape))
+        return result.reshape(t.size, -1)
+
+    def slopes(self, t: float, coordinates: FloatArray, angle: float = 0.0) -> FloatArray:
+        """Return derivatives of the forces of loads on the span to coordinates (nodes, n).
+
+        As triplets, by central differences: a force changes with its own node's turn alone.
+        """
+        nodes, n = coordinates.shape
+        turns = n - self._model.dimensions
+        steps = _STEP * np.eye(n)[-turns:, None]
+        ahead, behind = (
+            self._on_span(np.full(turns, t), coordinates + sign * steps, angle)
+            for sign in (1.0, -1.0)
+        )
+        values = ((ahead - behind) / (2.0 * _STEP)).reshape(turns, nodes, n)
+        column, node, row = np.indices(values.shape)
+        places = node * n + row, node * n + self._model.dimensions + column
+        return np.column_stack([one.ravel() for one in (*places, values)])
 
     def power(
         self, t: FloatArray, angle: FloatArray, coordinates: FloatArray, velocities: FloatArray
@@ -108,7 +174,8 @@ class Loading:
         v = velocities.reshape(t.size, -1)
         at_line = self._model.line(self._arms, coordinates, velocities).reshape(t.size, -1)
         on_mass, on_line = self._pushed(t, angle, self._setting)
-        power = on_mass * v + (on_line - at_line @ self._drag) * at_line
+        power = (on_mass + self._on_span(t, coordinates)) * v
+        power += (on_line - at_line @ self._drag) * at_line
         return np.asarray(np.sum(power, axis=1))
 
     def add(self, mbs: exudyn.MainSystem, chain: Chain, rotation: Rotation, frame: Frame) -> None:
@@ -140,9 +207,17 @@ class Loading:
             line_rates = self._model.line(self._arms, at, moving).ravel()
             on_mass, on_line = acting(t)
             on_line = on_line + frame_rate(t) * (turning @ line) - self._drag @ line_rates
-            return on_mass + self._onto_nodes(at, on_line)
+            on_nodes = on_mass + self._onto_nodes(at, on_line)
+            if self._spans:
+                ahead = rotation.angle(t) if inertial else 0.0
+                on_nodes = on_nodes + self._on_span(np.array([t]), at[None], ahead)[0]
+            return on_nodes
 
         def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
-            return [(drag_triplets, 0.0, -1.0), (turning_triplets, frame_rate(t), 0.0)]
+            parts = [(drag_triplets, 0.0, -1.0), (turning_triplets, frame_rate(t), 0.0)]
+            if self._spans:
+                ahead = rotation.angle(t) if inertial else 0.0
+                parts.append((self.slopes(t, e.reshape(len(chain.nodes), -1), ahead), 1.0, 0.0))
+            return parts
 
         add_force(mbs, chain.nodes, force=force, derivatives=derivatives)

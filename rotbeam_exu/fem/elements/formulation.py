@@ -81,6 +81,8 @@ class Formulation(Described, abstract=True):
     """Whether it has bending and axial damping."""
     leaves_plane: ClassVar[bool] = False
     """Whether it lives in space: z is across the plane of rotation."""
+    takes_wrenches: ClassVar[bool] = False
+    """Whether forces and moments in space act on its nodes: it then has `wrenched`."""
     twists: ClassVar[bool] = False
     """Whether its sections turn about the axis."""
     constant_mass: ClassVar[bool] = True
@@ -207,6 +209,15 @@ class Formulation(Described, abstract=True):
     ) -> FloatArray:
         """Return forces on the nodes, (..., nodes, n), of forces on the blade's line."""
         return forces
+
+    def wrenched(
+        self, arms: FloatArray, coordinates: FloatArray, dead: FloatArray, following: FloatArray
+    ) -> FloatArray:
+        """Return forces on the nodes, (..., nodes, n), of force and moment on the line at them.
+
+        Both (..., nodes, 6): dead by the axes of the coordinates, following by those of sections.
+        """
+        raise NotImplementedError
 
     def divergence_speed(self, blade: Any, elements: int) -> float:
         """Speed [rad/s] above which the model diverges; infinite where its strains are exact."""

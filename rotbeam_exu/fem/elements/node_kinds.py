@@ -126,6 +126,7 @@ class FrameNodes(Formulation, abstract=True):
     """Nodes carry r and the Euler parameters p of the section, whose first axis is its normal."""
 
     leaves_plane: ClassVar[bool] = True
+    takes_wrenches: ClassVar[bool] = True
     twists: ClassVar[bool] = True
     constant_mass: ClassVar[bool] = False
     node: ClassVar[str] = "NodeRigidBodyEP"
@@ -189,6 +190,19 @@ class FrameNodes(Formulation, abstract=True):
         local = (np.swapaxes(directors(p), -1, -2) @ forces[..., :3, None])[..., 0]
         result[..., 3:] += onto_parameters(p, np.cross(local, arms))
         return result
+
+    def wrenched(
+        self, arms: FloatArray, coordinates: FloatArray, dead: FloatArray, following: FloatArray
+    ) -> FloatArray:
+        """Return forces on places and Euler parameters."""
+        p = coordinates[..., 3:]
+        turn = directors(p)
+        back = np.swapaxes(turn, -1, -2)
+        local = np.stack([(back @ part[..., None])[..., 0] for part in np.split(dead, 2, axis=-1)])
+        force, moment = local + np.stack(np.split(following, 2, axis=-1))
+        on_place = (turn @ force[..., None])[..., 0]
+        torque = onto_parameters(p, moment + np.cross(force, arms))
+        return np.concatenate((on_place, torque), axis=-1)
 
 
 def require_bare(element: Formulation, blade: Blade) -> None:
