@@ -38,6 +38,7 @@ _MODES = 3  # by which functions of a table are chosen
 _STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
 _SHORTER = 1.5  # from one refinement to the next
 _REFINEMENTS = 7
+_SLOW = 0.5  # of the change before, above which waves are what is left, and more cost more
 _WITHIN = 0.2  # of the tolerance in space, for the first steps
 _FINER, _AGAIN = 5.0, 3.0  # times smaller for the second, and for each after it
 _TAIL = 5.0  # of it, for the last coordinates of what is resolved
@@ -208,15 +209,14 @@ def spin_up_response(
     at_fastest = partial(_at_fastest, blade, spin_up, theory, loads, leaves=bool(kick or bent))
     steady = at_fastest(math.ceil(_A_DIGIT * _DIGITS[0]))
     controlled, by_answers = steady.model.has_dear_tangent, steady.model.answers
+    # The kinks of a table leave an algebraic tail.
+    table = blade.unit.cells.size > _MANY_CELLS
     tolerance = _checked(tolerance, max(_TOLERANCE, steady.model.tolerance))
     digits = float(np.clip(-math.log10(tolerance), *_DIGITS))
     functions = math.ceil(_A_DIGIT * digits)
-    # The kinks of a table leave an algebraic tail.
-    table = blade.unit.cells.size > _MANY_CELLS
     more = max(functions // 2 if table else _MORE_FUNCTIONS, steady.model.blade.panel_count)
     steady = _settled(steady, tolerance) if by_answers else at_fastest(functions)
-    coarser, error, size = None, math.inf, 0.0
-    within = _WITHIN * tolerance if controlled else None
+    coarser, error, size, within = None, math.inf, 0.0, _WITHIN * tolerance if controlled else None
     for level in range(_REFINEMENTS):
         if level and by_answers:
             steady = _resolving(steady, coarser, partial(drive, blade, rotation, loads), tolerance)
@@ -243,13 +243,18 @@ def spin_up_response(
             within /= _FINER if coarser is None else _AGAIN
         if coarser is not None:
             # At constant speed a blade at rest in its frame deflects by round-off.
-            error, size = _change(coarser, finer, (not spin_up.ramp_time) * _ROUND_OFF / tolerance)
+            before, (error, size) = (
+                error,
+                _change(coarser, finer, (not spin_up.ramp_time) * _ROUND_OFF / tolerance),
+            )
             error = max(error, controlled * _LEAST * tolerance)
-            if error <= tolerance:
+            if error <= tolerance or (controlled and level > 2 and error > _SLOW * before):
                 break
         coarser = finer
-    else:
-        sentence = _what_to_try(tolerance, error, size, time[-1])
+    if finer is None or error > tolerance:
+        sentence = _what_to_try(
+            tolerance, error, size, time[-1], waves=bool(loads) > any(blade.damping.of_strains)
+        )
         if finer is None or not error <= KNOWN:
             raise RuntimeError(sentence)
         warn(sentence)
@@ -341,7 +346,9 @@ def _change(coarser: BladeMotion, finer: BladeMotion, least: float) -> tuple[flo
     return max(float(np.abs(change).max()) for change in changes) / (size or 1.0), size
 
 
-def _what_to_try(tolerance: float, error: float, size: float, end: float) -> str:
+def _what_to_try(
+    tolerance: float, error: float, size: float, end: float, *, waves: bool = False
+) -> str:
     """Return a sentence on two solutions that differ by `error` times `size`."""
     if math.isinf(error):
         why = f"Newton's method fails before t = {end:g} s; take a longer ramp"
@@ -351,9 +358,16 @@ def _what_to_try(tolerance: float, error: float, size: float, end: float) -> str
             f"round-off drowns; ask for later times as well"
         )
     else:
+        enough = f"tolerance={10.0 * error:.0e} or " * (10.0 * error <= KNOWN)
         why = (
             f"the finest two solutions differ by {error:.1e} of the largest deflection; take "
-            f"tolerance={10.0 * error:.0e} or a longer ramp"
+            f"{enough}a longer ramp"
+        )
+    if waves:
+        why += (
+            "; a load that jumps excites waves of all lengths, which damping of the blade's "
+            "strains takes away, as with Damping(bending=t, out_of_plane=t, torsion=t, axial=t, "
+            "shear=t) and t = 1e-4 s"
         )
     return f"the response does not settle to {tolerance:g}: {why}"
 
