@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from analytic import Beam, LoadTable, PointLoad, SpinUp, SteadyRotation, spin_up_response
-from rotbeam_exu import dataset_of, load, save, simulate
+from analytic import Beam, LoadTable, SteadyRotation, spin_up_response
+from rotbeam_exu import dataset_of, load, save
 from rotbeam_exu.files.beam_file import load_run_file
 from rotbeam_exu.files.load_file import load_table
 from rotbeam_exu.runs.attributes import loads_of
@@ -100,9 +100,3 @@ def test_a_file_outside_the_folder_and_unknown_keys_are_refused(tmp_path, line, 
     told = written(inner, f'[[loads]]\nkind = "LoadTable"\n{line}\n', "run.toml")
     with pytest.raises(ValueError, match=sentence):
         load_run_file(told)
-
-
-def test_exudyn_refuses_a_load_on_the_span(beam):
-    point = PointLoad(force=(0.0, 1.0, 0.0), position=3.0)
-    with pytest.raises(ValueError, match="a point load of 1 N acts on the span: take an"):
-        simulate(beam, SpinUp(omega=2.0, ramp_time=1.0), duration=2.0, loads=[point])
