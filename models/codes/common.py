@@ -63,7 +63,7 @@ def called(entry: Entry) -> Callable[[Case, int, float], FloatArray]:
 
 
 def sampled(case: Case, time: FloatArray, q: FloatArray) -> FloatArray:
-    """Return q at `times` from a code's own samples, (samples,), a hundred a period or more."""
+    """Return q at `times` from a code's own samples, (samples, ...), a hundred a period or more."""
     return np.asarray(CubicSpline(time, q)(times(case)))
 
 
@@ -101,8 +101,8 @@ def take_part(
         Its path.
     declaration : Declaration
     history : callable
-        (case, elements, step [s]) -> q [m] at `times`; RuntimeError with one sentence where it
-        fails.
+        (case, elements, step [s]) -> q [m] at `times`, or the columns of a case in space;
+        RuntimeError with one sentence where it fails.
     runs : dict
         Meshes and steps [s] by name of the case.
     frequency : callable, optional
@@ -144,7 +144,8 @@ def _run(
         failure = str(error)
     run = Run(
         case=case.name, elements=elements, step=step, time=times(case) if q.size else q,
-        q=np.array([_short(x) for x in q]), failure=failure, cpu=float(f"{cpu() - started:.4g}"),
+        q=np.vectorize(_short, otypes=[float])(q) if q.size else q, failure=failure,
+        cpu=float(f"{cpu() - started:.4g}"),
     )  # fmt: skip
     print(run, flush=True)
     return run

@@ -12,6 +12,7 @@ from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from common import output_of, sampled, take_part
@@ -58,12 +59,15 @@ def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str,
     damping = beam.damping.bending
     stations = np.linspace(0.0, 1.0, STATIONS if used else 2)
     EA, EI, m = beam.axial_stiffness, beam.bending_stiffness, beam.mass_per_length
-    turning = TURNING * m * EI / EA
+    out = beam.section.out_of_plane
+    flap, GJ = (out.bending_ratio * EI, out.torsion_ratio * EI) if out else (EI, EI)
+    inertia = (1.0 if out else TURNING) * m / EA
+    twist = np.degrees(np.ravel(beam.line.twist)[-1]) if out else 0.0
     matrices = [
         row(line)
         for diagonal in (
-            (SHEAR * EA, SHEAR * EA, EA, EI, EI, EI),
-            (m, m, m, turning, turning, 2 * turning),
+            (SHEAR * EA, SHEAR * EA, EA, EI, flap, GJ),
+            (m, m, m, inertia * EI, inertia * flap, inertia * (EI + flap)),
         )
         for line in (*np.diag(diagonal), ())
     ]
@@ -84,9 +88,10 @@ def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str,
             "1e-6 stop_tol", "False tngt_stf_fd", "False tngt_stf_comp",
             '"DEFAULT" tngt_stf_pert', '"DEFAULT" tngt_stf_difftol', "True RotStates", "-",
             "1 member_total", "3 kp_total", "1 3", "-", "-",
-            *(row((0.0, 0.0, z, 0.0)) for z in np.linspace(0.0, beam.length, 3)),
+            *(row((0.0, 0.0, x * beam.length, -x * twist)) for x in (0.0, 0.5, 1.0)),
             "-", f"{degree} order_elem", "-", '"blade.inp" BldFile', "-", "False SumPrint",
-            '"ES23.15E3" OutFmt', "1 NNodeOuts", "1 OutNd", "OutList", '"TipTDyr"', "END", "-",
+            '"ES23.15E3" OutFmt', "1 NNodeOuts", "1 OutNd", "OutList",
+            *(f'"Tip{kind}D{axis}r"' for kind in "TR" for axis in "xyz"), "END", "-",
         ],
         "blade.inp": [
             "-", "-", "-", f"{stations.size} station_total", f"{int(damping > 0.0)} damp_type", "-",
@@ -98,7 +103,7 @@ def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str,
 
 
 def history(case: Case, degree: int, h: float, *, used: bool = False):
-    """Return q from the tip's displacement across the blade, in the frame of the root."""
+    """Return what the case asks of the tip's displacement and turn, in the frame of the root."""
     program = driver()
     with tempfile.TemporaryDirectory() as folder:
         for name, lines in files(case, degree, h, used=used).items():
@@ -107,8 +112,15 @@ def history(case: Case, degree: int, h: float, *, used: bool = False):
         output_of([program, "driver.inp"], cwd=folder, env=ramp)
         lines = Path(folder, "driver.out").read_text().splitlines()
     first = next(k for k, line in enumerate(lines) if line.strip().startswith("Time"))
-    time, across = np.loadtxt(lines[first + 2 :]).T
-    return sampled(case, time, -across)
+    time, up, against, _, *turned = np.loadtxt(lines[first + 2 :]).T
+    if len(case.columns) == 1:
+        return sampled(case, time, -against)
+    # Wiener and Milenkovic's parameters are 4 tan(φ/4) times the axis.
+    size = np.linalg.norm(turned, axis=0)
+    vector = np.array(turned) * 4.0 * np.arctan(size / 4.0) / np.maximum(size, 1e-300)
+    turn = Rotation.from_rotvec((vector[::-1] * [[1.0], [-1.0], [1.0]]).T).as_matrix()
+    twist = np.arctan2(turn[:, 2, 1], turn[:, 2, 2])
+    return sampled(case, time, np.stack((-against, up, twist), axis=1))
 
 
 def take_part_as(
@@ -129,5 +141,5 @@ def take_part_as(
 
 if __name__ == "__main__":
     runs = [(8, 4e-3), (10, 4e-3), (12, 4e-3), (14, 4e-3), (10, 8e-3), (10, 2e-3), (10, 1e-3)]
-    cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+d", "S1+g"
+    cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+d", "S1+g", "W"
     take_part_as(__file__, "BeamDyn", "Gauss's quadrature", dict.fromkeys(cases, runs))

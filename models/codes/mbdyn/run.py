@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from common import output_of, sampled, take_part
@@ -35,26 +36,31 @@ def model(case: Case, elements: int, h: float) -> list[str]:
     blade, count = case.blade, 2 * elements + 1
     EA, EI, m = blade.axial_stiffness, blade.bending_stiffness, blade.mass_per_length
     cell, hub = blade.length / (count - 1), blade.hub_radius
-    stiffness = f"diag, {EA!r}, {SHEAR * EA!r}, {SHEAR * EA!r}, {EI!r}, {EI!r}, {EI!r}"
+    out = blade.section.out_of_plane
+    flap, GJ = (out.bending_ratio * EI, out.torsion_ratio * EI) if out else (EI, EI)
+    twist = np.linspace(0.0, np.ravel(blade.line.twist)[-1] if out else 0.0, count)
+    stiffness = f"diag, {EA!r}, {SHEAR * EA!r}, {SHEAR * EA!r}, {GJ!r}, {flap!r}, {EI!r}"
     law = f"linear elastic generic, {stiffness}"
     if tau := blade.damping.bending:
         law = f"linear viscoelastic generic, {stiffness}, diag, 0., 0., 0., 0., 0., {tau * EI!r}"
     masses = m * cell * np.where(np.arange(count) % (count - 1), 1.0, 0.5)
-    inertias = TURNING * EI / EA * masses
+    per_mass = (1.0 if out else TURNING) / EA
     masses[-1] += sum(one.mass for one in blade.point_masses)
     weight = sum(load.gravity for load in case.loads)
     nodes = [
-        f"structural: {i + 1}, dynamic, {hub + i * cell!r}, 0., 0., eye, null, null, "
+        f"structural: {i + 1}, dynamic, {hub + i * cell!r}, 0., 0., 1, 1., 0., 0., 2, 0., "
+        f"{math.cos(turn)!r}, {math.sin(turn)!r}, null, null, "
         f"output, {'yes' if i == count - 1 else 'no'};"
-        for i in range(count)
+        for i, turn in enumerate(twist.tolist())
     ]
     bodies = [
-        f"body: {i + 1}, {i + 1}, {mass!r}, null, diag, {2.0 * j!r}, {j!r}, {j!r};"
-        for i, (mass, j) in enumerate(zip(masses.tolist(), inertias.tolist(), strict=True))
+        f"body: {i + 1}, {i + 1}, {mass!r}, null, diag, "
+        f"{per_mass * mass * (flap + EI)!r}, {per_mass * mass * flap!r}, {per_mass * mass * EI!r};"
+        for i, mass in enumerate(masses.tolist())
     ]
     beams = [
-        f"beam3: {e + 1}, {2 * e + 1}, null, {2 * e + 2}, null, {2 * e + 3}, null, eye, {law}, "
-        "same, same;"
+        f"beam3: {e + 1}, {2 * e + 1}, null, {2 * e + 2}, null, {2 * e + 3}, null, from nodes, "
+        f"{law}, same, same;"
         for e in range(elements)
     ]
     return [
@@ -64,7 +70,8 @@ def model(case: Case, elements: int, h: float) -> list[str]:
         "derivatives max iterations: 10; linear solver: naive;", "end: initial value;",
         "begin: control data;", f"structural nodes: {count + 1}; rigid bodies: {count};",
         f"beams: {elements}; joints: 2;", "gravity;" if weight else "", "output precision: 14;",
-        "default output: none; default output: structural nodes;", "end: control data;",
+        "default output: none; default output: structural nodes;",
+        "default orientation: orientation vector;", "end: control data;",
         "begin: nodes;", "structural: 1000, static, null, eye, null, null;", *nodes, "end: nodes;",
         "begin: elements;", "joint: 1, clamp, 1000, node, node;",
         f'joint: 2, axial rotation, 1000, null, 1, {-hub!r}, 0., 0., string, "{speed(case)}";',
@@ -74,14 +81,22 @@ def model(case: Case, elements: int, h: float) -> list[str]:
 
 
 def history(case: Case, elements: int, h: float):
-    """Return q from the places of the tip, which do not turn."""
+    """Return what the case asks of place and turn of the tip, by axes that do not turn."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "blade.mbd").write_text("\n".join(model(case, elements, h)) + "\n")
         output_of([PROGRAM, "-s", "-f", "blade.mbd", "-o", "blade"], cwd=folder)
-        rows = np.genfromtxt(Path(folder, "blade.mov"), usecols=(0, 1, 2))
-    tip = rows[rows[:, 0] == 2 * elements + 1, 1:] @ (1.0, 1j)
-    time = h * np.arange(tip.size)
-    return sampled(case, time, (tip * np.exp(-1j * case.rotation.angle(time))).imag)
+        rows = np.genfromtxt(Path(folder, "blade.mov"), usecols=range(7))
+    rows = rows[rows[:, 0] == 2 * elements + 1, 1:]
+    time = h * np.arange(len(rows))
+    angle = case.rotation.angle(time)
+    q = ((rows[:, :2] @ (1.0, 1j)) * np.exp(-1j * angle)).imag
+    if len(case.columns) == 1:
+        return sampled(case, time, q)
+    turn = Rotation.from_rotvec(rows[:, 3:])
+    back = Rotation.from_rotvec(np.outer(-angle, [0.0, 0.0, 1.0]))
+    turned = (back * turn * turn[0].inv()).as_matrix()
+    twist = np.arctan2(turned[:, 2, 1], turned[:, 2, 2])
+    return sampled(case, time, np.stack((q, rows[:, 2], twist), axis=1))
 
 
 if __name__ == "__main__":
@@ -94,6 +109,6 @@ if __name__ == "__main__":
         element=f"beam3, three nodes, lumped bodies; multistep rule with spectral radius {RADIUS}",
     )  # fmt: skip
     runs = [(16, 4e-3), (32, 4e-3), (64, 4e-3), (32, 8e-3), (32, 2e-3)]
-    cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+m", "S1+d", "S1+g"
+    cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+m", "S1+d", "S1+g", "W"
     finer = [(32, 4e-3), (64, 4e-3), (128, 4e-3), (64, 2e-3), (64, 1e-3)]
     take_part(__file__, told, history, {**dict.fromkeys(cases, runs), "S4": finer})
