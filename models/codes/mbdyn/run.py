@@ -39,6 +39,10 @@ def model(case: Case, elements: int, h: float) -> list[str]:
     out = blade.section.out_of_plane
     flap, GJ = (out.bending_ratio * EI, out.torsion_ratio * EI) if out else (EI, EI)
     twist = np.linspace(0.0, np.ravel(blade.line.twist)[-1] if out else 0.0, count)
+    kicked = np.zeros((count, 2))
+    if case.kick:
+        state = case.start(np.linspace(0.0, blade.length, count))
+        kicked = np.stack((state.velocity[:, 2], state.spin[:, 1]), axis=1)
     stiffness = f"diag, {EA!r}, {SHEAR * EA!r}, {SHEAR * EA!r}, {GJ!r}, {flap!r}, {EI!r}"
     law = f"linear elastic generic, {stiffness}"
     if tau := blade.damping.bending:
@@ -49,9 +53,9 @@ def model(case: Case, elements: int, h: float) -> list[str]:
     weight = sum(load.gravity for load in case.loads)
     nodes = [
         f"structural: {i + 1}, dynamic, {hub + i * cell!r}, 0., 0., 1, 1., 0., 0., 2, 0., "
-        f"{math.cos(turn)!r}, {math.sin(turn)!r}, null, null, "
+        f"{math.cos(turn)!r}, {math.sin(turn)!r}, 0., 0., {up!r}, 0., {spin!r}, 0., "
         f"output, {'yes' if i == count - 1 else 'no'};"
-        for i, turn in enumerate(twist.tolist())
+        for i, (turn, (up, spin)) in enumerate(zip(twist.tolist(), kicked.tolist(), strict=True))
     ]
     bodies = [
         f"body: {i + 1}, {i + 1}, {mass!r}, null, diag, "
@@ -109,6 +113,6 @@ if __name__ == "__main__":
         element=f"beam3, three nodes, lumped bodies; multistep rule with spectral radius {RADIUS}",
     )  # fmt: skip
     runs = [(16, 4e-3), (32, 4e-3), (64, 4e-3), (32, 8e-3), (32, 2e-3)]
-    cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+m", "S1+d", "S1+g", "W"
+    cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+m", "S1+d", "S1+g", "W", "K"
     finer = [(32, 4e-3), (64, 4e-3), (128, 4e-3), (64, 2e-3), (64, 1e-3)]
     take_part(__file__, told, history, {**dict.fromkeys(cases, runs), "S4": finer})
