@@ -21,7 +21,9 @@ from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.spatial.transform import Rotation
 
+from analytic import Blade
 from analytic.arrays import ComplexArray, FloatArray
 from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.cases import CASES
@@ -65,6 +67,20 @@ def called(entry: Entry) -> Callable[[Case, int, float], FloatArray]:
 def sampled(case: Case, time: FloatArray, q: FloatArray) -> FloatArray:
     """Return q at `times` from a code's own samples, (samples, ...), a hundred a period or more."""
     return np.asarray(CubicSpline(time, q)(times(case)))
+
+
+def bends_in_space(blade: Blade) -> tuple[float, float, float]:
+    """Return EI of flap and GJ [N m²], and the tip's twist [rad]; a beam of the plane is round."""
+    out, EI = blade.section.out_of_plane, blade.bending_stiffness
+    if out is None:
+        return EI, EI, 0.0
+    return out.bending_ratio * EI, out.torsion_ratio * EI, float(np.ravel(blade.line.twist)[-1])
+
+
+def twist_of(turns: Rotation) -> FloatArray:
+    """Return the turn of a section about its normal, x, of rotations (samples,) [rad]."""
+    matrices = turns.as_matrix()
+    return np.asarray(np.arctan2(matrices[:, 2, 1], matrices[:, 2, 2]))
 
 
 def cpu() -> float:

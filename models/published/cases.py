@@ -1,4 +1,4 @@
-"""Static and rotating blades that others have published: their numbers beside the exact blade's.
+"""Static and rotating blades that others have published: their numbers, and the exact blade's.
 
 Numbers and sections are facts from the sources named; the test and the page of published cases
 call what is here.

@@ -46,7 +46,7 @@ def campbell(
     omega_min
         Lowest rotation speed [rad/s].
     omega_max
-        Highest rotation speed [rad/s]; unless given, twice the file's, or the benchmark's 6 rad/s.
+        Highest rotation speed [rad/s]; unless given, twice the file's, or the one that `run` takes.
     points
         Number of speeds.
     count

@@ -114,6 +114,12 @@ def grid_motion(
     return chosen_motion(blade, ramp_time=longest, duration=duration, step=step)
 
 
+def whose_speeds(blade: Blade) -> str:
+    """Return whose ω/ω_0 chosen speeds have, in words."""
+    share = f"{_TABLE_SPEED:g} times " if blade.section.at_stations else ""
+    return f"{share}the benchmark's"
+
+
 def slower_than_paper(blade: Blade) -> float:
     """Ratio of the paper's natural frequency to the beam's."""
     return Beam.reference().omega_0 / blade.omega_0

@@ -150,14 +150,15 @@ OPTIONS = {
     "speed": _option(
         Number,
         "Steady angular velocity [rad/s]; by default the benchmark's, 6 for its beam and "
-        "ω/ω_0 = 2.06 for any other.",
+        "ω/ω_0 = 2.06 for any other, but 0.5 for a table of stations.",
         name="--omega",
     ),
     "ramp_time": _option(Number, "Time from rest to the steady angular velocity, T in Eq. 1 [s]."),
     "element": _option(
         str,
         "Beam formulation: cable (unless given), exact, ancf3, linear, substructures; in space "
-        "space_cable, space_exact; or one's own, as module:Class.",
+        "space_cable, space_exact (of a table of stations unless given); or one's own, as "
+        "module:Class.",
     ),
     "elements": _option(Whole, "Number of elements, 16 unless given."),
     "step": _option(Number, "Step size of the integrator [s]."),

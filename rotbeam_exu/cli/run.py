@@ -15,6 +15,7 @@ from ..lazily import xr
 from ..runs.attributes import loads_attributes, start_attributes
 from ..runs.check import energy_drift
 from .job import Flag, Results
+from .motion import whose_speeds
 from .options import NoFigure, Whole
 from .output import bar, print_line
 from .request import Request, uses
@@ -61,7 +62,7 @@ def run(
     from ..verification.assessment import assess
 
     case = request.case()
-    chosen = "" if "omega" in request.values else ", the benchmark's"
+    chosen = "" if "omega" in request.values else f", {whose_speeds(request.blade)}"
     count = 0 if stations is None else whole_number("stations", stations, least=2)
     kept = np.linspace(0.0, case.blade.length, count)
     name = f"{request.mesh}-omega-{case.omega:g}-ramp-{case.ramp_time:g}"

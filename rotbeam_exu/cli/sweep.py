@@ -13,7 +13,7 @@ from analytic.warning import warn
 from .. import paper
 from ..lazily import xr
 from .job import Flag, Results
-from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest
+from .motion import chosen_speeds, chosen_times, grid_motion, refuse_rest, whose_speeds
 from .options import Number, Numbers, Whole, Workers
 from .output import formatted, print_columns, print_line, print_note, print_text
 from .request import Request, uses
@@ -66,7 +66,9 @@ def sweep(
     def computed() -> xr.Dataset:
         if request.config is not None:
             speeds, times = (", ".join(f"{x:g}" for x in of) for of in (omegas, ramp_times))
-            print_text(f"ω = {speeds} rad/s, T = {times} s (by default the benchmark's ω/ω_0)")
+            print_text(
+                f"ω = {speeds} rad/s, T = {times} s (by default {whose_speeds(blade)} ω/ω_0)"
+            )
         with workers.counted("spin-ups") as how:
             return run_sweep(
                 blade, omegas=omegas, ramp_times=ramp_times, element=one.element,

@@ -26,7 +26,7 @@ from ..lazily import xr
 from ..runs.shape import shape_of
 from .case import RunCase
 from .elements.formulation import Formulation
-from .loading import is_on_span
+from .loading import is_on_span, turned_wrench
 from .mesh import Mesh
 from .rotating_beam import RotatingBeam
 from .solver import Trajectory
@@ -326,9 +326,10 @@ class _Masses:
             x = self._beam.length * self._x[at]
             wrench = span_load.wrench(span_load.phase_at(time / per_unit), x)
             turn = section[:, at] if span_load.following else model.line_frame(self._beam)
-            acting = zip((on_line, moments), np.split(weights * wrench, 2, axis=-1), strict=True)
-            for total, part in acting:
-                total[:, at] += (turn @ part[..., None])[..., 0]
+            for total, part in zip(
+                (on_line, moments), turned_wrench(weights * wrench, turn), strict=True
+            ):
+                total[:, at] += part
         couple = np.cross(r[:, :count], f) + np.cross(line[:, :count], on_line) + moments
         f = f + on_line
         if self._second.any():

@@ -44,6 +44,12 @@ def is_on_span(load: Load) -> TypeGuard[SpanLoad]:
     return load.acts_on == "span"
 
 
+def turned_wrench(wrench: FloatArray, turn: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return force and moment (..., 3) of a wrench (..., 6), turned by rotations (..., 3, 3)."""
+    force, moment = ((turn @ part[..., None])[..., 0] for part in np.split(wrench, 2, axis=-1))
+    return force, moment
+
+
 class _OnSpan:
     """A load on the span, on the nodes of a mesh."""
 
@@ -62,13 +68,16 @@ class _OnSpan:
         """Return nodal forces (samples, nodes, n)."""
         at_points = self._load.wrench(self._load.phase_at(t), self._x)
         wrench = np.einsum("np,spk->snk", self._onto, at_points)
-        none = np.zeros_like(wrench)
-        if self._load.following:
-            return self._model.wrenched(arms, coordinates, none, wrench)
-        about = spatial.transform.Rotation.from_rotvec(np.multiply.outer(angle, [0.0, 0.0, 1.0]))
-        turn = (about.as_matrix() @ self._frame)[:, None]
-        parts = [(turn @ part[..., None])[..., 0] for part in np.split(wrench, 2, axis=-1)]
-        return self._model.wrenched(arms, coordinates, np.concatenate(parts, axis=-1), none)
+        turn = self._model.sections(coordinates)
+        if not self._load.following:
+            axis = np.multiply.outer(angle, [0.0, 0.0, 1.0])
+            about = spatial.transform.Rotation.from_rotvec(axis).as_matrix()
+            turn = (about @ self._frame)[:, None]
+        on_line = np.zeros(coordinates.shape)
+        on_line[..., :3], moments = turned_wrench(wrench, turn)
+        on_nodes = self._model.onto_nodes(arms, coordinates, on_line)
+        on_nodes[..., 3:] += self._model.torques(coordinates, moments)
+        return on_nodes
 
 
 class Loading:

@@ -78,7 +78,7 @@ def stranger(tmp_path):
     return tmp_path / "stranger.toml"
 
 
-def asked(file):
+def request_of(file):
     """Return the request of `rotbeam run` of a file alone."""
     kept = []
     uses("speed", "ramp_time", "discretization", "loads", "damping")(kept.append)(config=file)
@@ -86,7 +86,7 @@ def asked(file):
 
 
 def test_without_options_a_table_is_run_up_like_a_rotor_in_space(stranger):
-    case = asked(stranger).case()
+    case = request_of(stranger).case()
     omega_0, spin_up = STRANGER.omega_0, case.spin_up
     assert case.element.name == "space_exact"
     # To two digits of each.

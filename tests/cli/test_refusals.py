@@ -77,6 +77,10 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("animate --beside cable", "linear"),
         ("animate --height 0.04 --out film.pvd", "give width too, or leave both out"),
         ("animate --out beam.avi", "the ending must be .gif or .mp4, or .pvd for ParaView"),
+        (
+            "run --element cable --config ../stations.toml",
+            "on the command line --element space_exact",
+        ),
         ("ramp --config ../stations.toml", "ramp is for a straight blade in its plane, and this"),
         (f"{STABILITY}--config ../stations.toml", "planar motion is of a straight blade in its"),
         ("explore --out explorer.pdf", "the ending must be .html"),

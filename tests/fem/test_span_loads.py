@@ -1,4 +1,4 @@
-"""Forces and moments on the span in `space_exact`, beside the exact blade under the same loads."""
+"""Forces and moments on the span in `space_exact`, compared with the exact blade."""
 
 import numpy as np
 import pytest

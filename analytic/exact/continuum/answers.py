@@ -49,12 +49,12 @@ def forces_caused(steady: Any, count: int) -> FloatArray:
     Those of the modes at the phases of both parts of their shapes, each of unit elastic energy.
     """
     model, by, q = steady.model, steady.by(), steady.equilibrium
+    still = np.zeros((1, q.size))
+    parts: list[FloatArray] = [model.forces_caused(q[None], still, still, by)]
     if not count:
-        return np.asarray(model.forces_caused(q[None], *np.zeros((2, 1, q.size)), by))
+        return parts[0]
     frequencies, shapes = (part[..., :count] for part in steady.vibration)
     size = np.einsum("ik,ij,jk->k", shapes.conj(), model.functions.stiffness, shapes).real
-    still = np.zeros((1, q.size))
-    parts = [model.forces_caused(q[None], still, still, by)]
     for phase in (1.0, 1.0j):
         moved: ComplexArray = _SMALL * phase * (shapes / np.sqrt(size)).T
         rates = 1j * frequencies[:, None] * moved

@@ -216,7 +216,8 @@ def spin_up_response(
     functions = math.ceil(_A_DIGIT * digits)
     more = max(functions // 2 if table else _MORE_FUNCTIONS, steady.model.blade.panel_count)
     steady = _settled(steady, tolerance) if by_answers else at_fastest(functions)
-    coarser, error, size, within = None, math.inf, 0.0, _WITHIN * tolerance if controlled else None
+    coarser, error, size = None, math.inf, 0.0
+    within = _WITHIN * tolerance if controlled else None
     for level in range(_REFINEMENTS):
         if level and by_answers:
             steady = _resolving(steady, coarser, partial(drive, blade, rotation, loads), tolerance)
@@ -243,21 +244,13 @@ def spin_up_response(
             within /= _FINER if coarser is None else _AGAIN
         if coarser is not None:
             # At constant speed a blade at rest in its frame deflects by round-off.
-            before, (error, size) = (
-                error,
-                _change(coarser, finer, (not spin_up.ramp_time) * _ROUND_OFF / tolerance),
-            )
-            error = max(error, controlled * _LEAST * tolerance)
+            change, size = _change(coarser, finer, (not spin_up.ramp_time) * _ROUND_OFF / tolerance)
+            before, error = error, max(change, controlled * _LEAST * tolerance)
             if error <= tolerance or (controlled and level > 2 and error > _SLOW * before):
                 break
         coarser = finer
-    if finer is None or error > tolerance:
-        sentence = _what_to_try(
-            tolerance, error, size, time[-1], waves=bool(loads) > any(blade.damping.of_strains)
-        )
-        if finer is None or not error <= KNOWN:
-            raise RuntimeError(sentence)
-        warn(sentence)
+    waves = bool(loads) and not any(blade.damping.of_strains)
+    finer = _known(finer, tolerance, error, size, time[-1], waves=waves)
     return SpinUpResponse(
         blade=blade,
         spin_up=spin_up,
@@ -346,9 +339,21 @@ def _change(coarser: BladeMotion, finer: BladeMotion, least: float) -> tuple[flo
     return max(float(np.abs(change).max()) for change in changes) / (size or 1.0), size
 
 
-def _what_to_try(
-    tolerance: float, error: float, size: float, end: float, *, waves: bool = False
-) -> str:
+def _known(
+    finer: BladeMotion | None, tolerance: float, error: float, size: float, end: float, *,
+    waves: bool,
+) -> BladeMotion:  # fmt: skip
+    """Return the finest solution, with a warning short of the tolerance; refuse an unknown one."""
+    if finer is not None and error <= tolerance:
+        return finer
+    sentence = _what_to_try(tolerance, error, size, end, waves=waves)
+    if finer is None or not error <= KNOWN:
+        raise RuntimeError(sentence)
+    warn(sentence)
+    return finer
+
+
+def _what_to_try(tolerance: float, error: float, size: float, end: float, *, waves: bool) -> str:
     """Return a sentence on two solutions that differ by `error` times `size`."""
     if math.isinf(error):
         why = f"Newton's method fails before t = {end:g} s; take a longer ramp"

@@ -42,8 +42,8 @@ def elongation(order=None):
             strain = (outboard[-1] - outboard) / stiff
             u = np.append(0.0, np.cumsum(0.5 * (strain[1:] + strain[:-1]) * np.diff(x)))
         return u[-1]
-    weight = np.gradient(x) * np.where((x == 0.0) | (x == LENGTH), 0.5, 1.0)
-    weight[[0, -1]] = 0.5 * (x[1] - x[0])
+    weight = np.gradient(x)
+    weight[[0, -1]] *= 0.5
     slopes = [Legendre.basis(k, [0.0, LENGTH]) for k in range(order)]
     shapes = np.stack([slope.integ(lbnd=0.0)(x) for slope in slopes])
     bent = np.stack([slope(x) for slope in slopes])

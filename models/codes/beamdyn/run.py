@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from common import output_of, sampled, take_part
+from common import bends_in_space, output_of, sampled, take_part, twist_of
 
 from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.submission import Declaration
@@ -59,10 +59,8 @@ def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str,
     damping = beam.damping.bending
     stations = np.linspace(0.0, 1.0, STATIONS if used else 2)
     EA, EI, m = beam.axial_stiffness, beam.bending_stiffness, beam.mass_per_length
-    out = beam.section.out_of_plane
-    flap, GJ = (out.bending_ratio * EI, out.torsion_ratio * EI) if out else (EI, EI)
-    inertia = (1.0 if out else TURNING) * m / EA
-    twist = np.degrees(np.ravel(beam.line.twist)[-1]) if out else 0.0
+    flap, GJ, twist = bends_in_space(beam)
+    inertia = (TURNING if beam.section.out_of_plane is None else 1.0) * m / EA
     matrices = [
         row(line)
         for diagonal in (
@@ -88,7 +86,7 @@ def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str,
             "1e-6 stop_tol", "False tngt_stf_fd", "False tngt_stf_comp",
             '"DEFAULT" tngt_stf_pert', '"DEFAULT" tngt_stf_difftol', "True RotStates", "-",
             "1 member_total", "3 kp_total", "1 3", "-", "-",
-            *(row((0.0, 0.0, x * beam.length, -x * twist)) for x in (0.0, 0.5, 1.0)),
+            *(row((0.0, 0.0, x * beam.length, -x * np.degrees(twist))) for x in (0.0, 0.5, 1.0)),
             "-", f"{degree} order_elem", "-", '"blade.inp" BldFile', "-", "False SumPrint",
             '"ES23.15E3" OutFmt', "1 NNodeOuts", "1 OutNd", "OutList",
             *(f'"Tip{kind}D{axis}r"' for kind in "TR" for axis in "xyz"), "END", "-",
@@ -118,8 +116,7 @@ def history(case: Case, degree: int, h: float, *, used: bool = False):
     # Wiener and Milenkovic's parameters are 4 tan(φ/4) times the axis.
     size = np.linalg.norm(turned, axis=0)
     vector = np.array(turned) * 4.0 * np.arctan(size / 4.0) / np.maximum(size, 1e-300)
-    turn = Rotation.from_rotvec((vector[::-1] * [[1.0], [-1.0], [1.0]]).T).as_matrix()
-    twist = np.arctan2(turn[:, 2, 1], turn[:, 2, 2])
+    twist = twist_of(Rotation.from_rotvec((vector[::-1] * [[1.0], [-1.0], [1.0]]).T))
     return sampled(case, time, np.stack((-against, up, twist), axis=1))
 
 
@@ -130,13 +127,13 @@ def take_part_as(
     if not SOURCES:
         print("BeamDyn is left out: set OPENFAST to a folder with OpenFAST's sources")
         return
-    told = Declaration(
+    declaration = Declaration(
         code=code, version="OpenFAST 4, commit 2895884d2", licence="Apache-2.0",
         url="https://github.com/OpenFAST/openfast", order_in_step=2.0,
         element=f"one Legendre spectral element, elements are its degree; {how}",
     )  # fmt: skip
     driver()
-    take_part(script, told, partial(history, **options), runs)
+    take_part(script, declaration, partial(history, **options), runs)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from common import output_of, sampled, take_part
+from common import bends_in_space, output_of, sampled, take_part, twist_of
 
 from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.submission import Declaration
@@ -36,9 +36,8 @@ def model(case: Case, elements: int, h: float) -> list[str]:
     blade, count = case.blade, 2 * elements + 1
     EA, EI, m = blade.axial_stiffness, blade.bending_stiffness, blade.mass_per_length
     cell, hub = blade.length / (count - 1), blade.hub_radius
-    out = blade.section.out_of_plane
-    flap, GJ = (out.bending_ratio * EI, out.torsion_ratio * EI) if out else (EI, EI)
-    twist = np.linspace(0.0, np.ravel(blade.line.twist)[-1] if out else 0.0, count)
+    flap, GJ, tip = bends_in_space(blade)
+    twist = np.linspace(0.0, tip, count)
     kicked = np.zeros((count, 2))
     if case.kick:
         state = case.start(np.linspace(0.0, blade.length, count))
@@ -48,7 +47,7 @@ def model(case: Case, elements: int, h: float) -> list[str]:
     if tau := blade.damping.bending:
         law = f"linear viscoelastic generic, {stiffness}, diag, 0., 0., 0., 0., 0., {tau * EI!r}"
     masses = m * cell * np.where(np.arange(count) % (count - 1), 1.0, 0.5)
-    per_mass = (1.0 if out else TURNING) / EA
+    per_mass = (TURNING if blade.section.out_of_plane is None else 1.0) / EA
     masses[-1] += sum(one.mass for one in blade.point_masses)
     weight = sum(load.gravity for load in case.loads)
     nodes = [
@@ -98,8 +97,7 @@ def history(case: Case, elements: int, h: float):
         return sampled(case, time, q)
     turn = Rotation.from_rotvec(rows[:, 3:])
     back = Rotation.from_rotvec(np.outer(-angle, [0.0, 0.0, 1.0]))
-    turned = (back * turn * turn[0].inv()).as_matrix()
-    twist = np.arctan2(turned[:, 2, 1], turned[:, 2, 2])
+    twist = twist_of(back * turn * turn[0].inv())
     return sampled(case, time, np.stack((q, rows[:, 2], twist), axis=1))
 
 
@@ -107,7 +105,7 @@ if __name__ == "__main__":
     if not PROGRAM:
         print("MBDyn is left out: set WITH_MBDYN to its program")
         sys.exit()
-    told = Declaration(
+    declaration = Declaration(
         code="MBDyn", version="1.7.3", licence="GPL-2.1",
         url="https://public.gitlab.polimi.it/DAER/mbdyn", order=2.0, order_in_step=2.0,
         element=f"beam3, three nodes, lumped bodies; multistep rule with spectral radius {RADIUS}",
@@ -115,4 +113,4 @@ if __name__ == "__main__":
     runs = [(16, 4e-3), (32, 4e-3), (64, 4e-3), (32, 8e-3), (32, 2e-3)]
     cases = "S1", "V", "S2", "S3", "S4", "S1+h", "S1+m", "S1+d", "S1+g", "W", "K"
     finer = [(32, 4e-3), (64, 4e-3), (128, 4e-3), (64, 2e-3), (64, 1e-3)]
-    take_part(__file__, told, history, {**dict.fromkeys(cases, runs), "S4": finer})
+    take_part(__file__, declaration, history, {**dict.fromkeys(cases, runs), "S4": finer})

@@ -82,7 +82,7 @@ class Formulation(Described, abstract=True):
     leaves_plane: ClassVar[bool] = False
     """Whether it lives in space: z is across the plane of rotation."""
     takes_wrenches: ClassVar[bool] = False
-    """Whether forces and moments in space act on its nodes: it then has `wrenched`."""
+    """Whether moments act on its nodes, too: it then has `torques`."""
     twists: ClassVar[bool] = False
     """Whether its sections turn about the axis."""
     constant_mass: ClassVar[bool] = True
@@ -210,13 +210,8 @@ class Formulation(Described, abstract=True):
         """Return forces on the nodes, (..., nodes, n), of forces on the blade's line."""
         return forces
 
-    def wrenched(
-        self, arms: FloatArray, coordinates: FloatArray, dead: FloatArray, following: FloatArray
-    ) -> FloatArray:
-        """Return forces on the nodes, (..., nodes, n), of force and moment on the line at them.
-
-        Both (..., nodes, 6): dead by the axes of the coordinates, following by those of sections.
-        """
+    def torques(self, coordinates: FloatArray, moments: FloatArray) -> FloatArray:
+        """Return forces on what turns the nodes, behind r, of moments (..., nodes, 3) on them."""
         raise NotImplementedError
 
     def divergence_speed(self, blade: Any, elements: int) -> float:

@@ -191,18 +191,11 @@ class FrameNodes(Formulation, abstract=True):
         result[..., 3:] += onto_parameters(p, np.cross(local, arms))
         return result
 
-    def wrenched(
-        self, arms: FloatArray, coordinates: FloatArray, dead: FloatArray, following: FloatArray
-    ) -> FloatArray:
-        """Return forces on places and Euler parameters."""
+    def torques(self, coordinates: FloatArray, moments: FloatArray) -> FloatArray:
+        """Return forces on the Euler parameters."""
         p = coordinates[..., 3:]
-        turn = directors(p)
-        back = np.swapaxes(turn, -1, -2)
-        local = np.stack([(back @ part[..., None])[..., 0] for part in np.split(dead, 2, axis=-1)])
-        force, moment = local + np.stack(np.split(following, 2, axis=-1))
-        on_place = (turn @ force[..., None])[..., 0]
-        torque = onto_parameters(p, moment + np.cross(force, arms))
-        return np.concatenate((on_place, torque), axis=-1)
+        local = np.swapaxes(directors(p), -1, -2) @ moments[..., None]
+        return onto_parameters(p, local[..., 0])
 
 
 def require_bare(element: Formulation, blade: Blade) -> None:
