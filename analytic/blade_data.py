@@ -54,7 +54,7 @@ class BladeData(Described, abstract=True):
         self.section.require_along(self.length)
         self.line.require_along(self.length)
         offsets = (*self.line.mass_offset, *self.line.tension_offset)
-        if self.section.at_stations and any(offsets):
+        if self.section.table and any(offsets):
             raise ValueError(
                 "the stations tell where the centers are: leave with_offsets out, or give "
                 "from_stations the offsets tension, shear and center"

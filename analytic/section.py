@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from .arrays import FloatArray, Profile, evaluated, in_units, stations, times
 from .description import Described
 from .input_checks import checked_profile, finite_number, positive, require_along, warn_if_giga
 from .theory import Theory
+
+if TYPE_CHECKING:
+    from .station_section import StationSection
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,8 +95,10 @@ class Section(Described):
     rotary_inertia: Profile | None = None
     out_of_plane: OutOfPlane | None = None
 
-    at_stations: ClassVar[bool] = False
-    """Whether 6x6 matrices tell stiffness and mass, so that the blade lives in space."""
+    @property
+    def table(self) -> StationSection | None:
+        """The section itself if 6x6 matrices at stations tell stiffness and mass, else None."""
+        return None
 
     @property
     def knows_space(self) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, ClassVar, Literal, Never, get_args
+from typing import Any, Literal, Never, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -162,7 +162,10 @@ class StationSection(Section):
     rotary_inertia: Profile | None = field(init=False, repr=False)
     out_of_plane: OutOfPlane | None = field(init=False, default=None)
 
-    at_stations: ClassVar[bool] = True
+    @property
+    def table(self) -> StationSection:
+        """The section itself."""
+        return self
 
     @property
     def knows_space(self) -> bool:

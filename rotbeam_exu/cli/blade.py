@@ -65,10 +65,10 @@ def blade(
         if omega:
             modes = analytic.linear_modes(blade, omega, _COUNT, **how)
             turning[f"at {omega:g} rad/s [Hz]"] = _named(modes, rest) / (2.0 * np.pi)
-        section, others = blade.section, {}
-        if isinstance(section, StationSection):
-            (way,) = set(get_args(Interpolation)) - {section.interpolation}
-            others[way] = _changes(blade, section, way, rest, how)
+        others = {}
+        if table := blade.section.table:
+            (way,) = set(get_args(Interpolation)) - {table.interpolation}
+            others[way] = _changes(blade, table, way, rest, how)
     place, mass = blade.unit.inertia(32)
     moment = float(place @ mass) * blade.mass_per_length * blade.length**2
     print_line("length", f"{blade.length:g} m, on a hub of {blade.hub_radius:g} m")
@@ -133,8 +133,8 @@ def _print_section(blade: Blade) -> None:
     """Print stiffness and mass at the root, at the tip, and their extremes."""
     from ..report.blade import sections_of
 
-    if isinstance(blade.section, StationSection):
-        print_line("stations", f"{len(blade.section.x)}")
+    if table := blade.section.table:
+        print_line("stations", f"{len(table.x)}")
     values = sections_of(blade).data_vars
     print_columns(
         {

@@ -8,7 +8,6 @@ from textwrap import fill
 from typing import Any
 
 from analytic import Beam, Blade
-from analytic.station_section import StationSection
 
 
 def blade_toml(blade: Blade, **others: Any) -> str:
@@ -35,7 +34,7 @@ def blade_toml(blade: Blade, **others: Any) -> str:
     else:
         parts = _changed(blade)
         for name, key in (("point_masses", "point_mass"), ("section", "stations")):
-            if name in parts and (name != "section" or isinstance(blade.section, StationSection)):
+            if name in parts and (name != "section" or blade.section.table):
                 parts[key] = parts.pop(name)
         if "stations" in parts:
             del parts["length"]

@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike
 from analytic import Blade, Damping
 from analytic.arrays import FloatArray
 from analytic.input_checks import along, positive
-from analytic.station_section import StationSection
 from analytic.warning import warn
 
 from .foreign import ForeignText
@@ -179,7 +178,7 @@ def write_beamdyn(blade: Blade, path: Path) -> list[Path]:
     ValueError
         If the blade is not from stations, or has what BeamDyn's files cannot hold.
     """
-    if not isinstance(blade.section, StationSection):
+    if (table := blade.section.table) is None:
         raise ValueError("BeamDyn's files hold 6x6 matrices: make the blade by Blade.from_stations")
     for name, there in (("point masses", blade.point_masses), ("kinks", blade.line.kinks),
                         ("external damping", blade.damping.external)):  # fmt: skip
@@ -188,9 +187,9 @@ def write_beamdyn(blade: Blade, path: Path) -> list[Path]:
     _, points, angles = key_points(blade)
     keys = np.column_stack((points[:, [2, 1, 0]] * [1.0, -1.0, 1.0], -np.degrees(angles)))
     beside = blade_file_of(path)
-    eta = np.array(blade.section.x) / blade.length
+    eta = np.array(table.x) / blade.length
     stations = ""
-    matrices = np.array((blade.section.stiffness, blade.section.mass))
+    matrices = np.array((table.stiffness, table.mass))
     for place, *both in zip(eta, *(_AXES @ matrices @ _AXES), strict=True):
         stations += f"{place:.16f}\n" + "".join(f"{_rows(one)}\n\n" for one in both)
     damped, mu = int(bool(blade.damping)), np.abs(_AXES) @ blade.damping.of_strains

@@ -16,7 +16,7 @@ import analytic
 from analytic import Blade, Damping, Gravity, Theory
 from analytic.arrays import FloatArray, evaluated, in_units
 from analytic.exact.linear.campbell import Campbell
-from analytic.station_section import STIFFNESSES, StationSection
+from analytic.station_section import STIFFNESSES
 
 from ..datasets import dataset_of, root_loads
 from ..labels import OMEGA, dataset
@@ -115,14 +115,13 @@ def blade_parts(
 
 def sections_of(blade: Blade) -> xr.Dataset:
     """Return stiffness and mass per length over `x` [m], at the stations of a table."""
-    section = blade.section
-    if isinstance(section, StationSection):
-        x = np.array(section.x)
-        values = dict(zip(STIFFNESSES, section.stiffnesses.T, strict=True))
-        values["m"] = np.array(section.mass_per_length)[:, 1]
+    if table := blade.section.table:
+        x = np.array(table.x)
+        values = dict(zip(STIFFNESSES, table.stiffnesses.T, strict=True))
+        values["m"] = np.array(table.mass_per_length)[:, 1]
     else:
         named = {"EA": "axial_stiffness", "EI": "bending_stiffness", "m": "mass_per_length"}
-        profiles, over = section.profiles(), np.linspace(0.0, 1.0, 257)
+        profiles, over = blade.section.profiles(), np.linspace(0.0, 1.0, 257)
         x = blade.length * over
         values = {
             name: evaluated(in_units(profiles[long], blade.length, 1.0), over)
