@@ -206,7 +206,7 @@ def _configured(config: Path | None, uses: Sequence[str]) -> RunFile:
     """Return the tables and keys of a file that a command uses; without one, the paper's beam.
 
     Loads or a theory of which the command uses nothing are refused; a warning names other keys that
-    it does not use.
+    it does not use, unless it uses the speed of a motion.
     """
     file = RunFile(blade=Beam.reference()) if config is None else load_run_file(config)
     kept: dict[str, Any] = {}
@@ -219,7 +219,8 @@ def _configured(config: Path | None, uses: Sequence[str]) -> RunFile:
                 f"{config} has {title}, of which this command uses nothing: leave it out"
             )
         if spare := [key for key in given if key not in keys]:
-            warn(f"{config}: this command does not use {', '.join(spare)} of [{name}]")
+            if not (keys and name == "motion"):
+                warn(f"{config}: this command does not use {', '.join(spare)} of [{name}]")
             kept[name] = {key: given[key] for key in keys if key in given}
     return replace(file, **kept)
 
