@@ -9,7 +9,7 @@ from .exact.free.backbone import periodic_orbits as periodic_orbits
 from .exact.free.path import AmplitudeNotReachedError as AmplitudeNotReachedError
 from .exact.free.stability_limit import stability_limit as stability_limit
 from .exact.linear.campbell import campbell as campbell
-from .exact.linear.modes import damping_ratios as damping_ratios
+from .exact.linear.damping import damping_ratios as damping_ratios
 from .exact.linear.modes import linear_modes as linear_modes
 from .exact.linear.state_space import state_space as state_space
 from .exact.linear.steady_state import steady_state as steady_state

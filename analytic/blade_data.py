@@ -15,6 +15,7 @@ from .parts import STRAIGHT, UNDAMPED, Damping, Line, PointMass
 from .section import Section
 from .section_shape import Gyration
 from .shape_functions import shape_functions
+from .station_section import StationSection
 from .unit_blade import UnitBlade
 
 _FUNCTIONS, _POINTS = 24, 32  # for scales: ω0 and the burst speed
@@ -54,12 +55,17 @@ class BladeData(Described, abstract=True):
         self.section.require_along(self.length)
         self.line.require_along(self.length)
         offsets = (*self.line.mass_offset, *self.line.tension_offset)
-        if self.section.table and any(offsets):
+        if self.table and any(offsets):
             raise ValueError(
                 "the stations tell where the centers are: leave with_offsets out, or give "
                 "from_stations the offsets tension, shear and center"
             )
         self._require_masses()
+
+    @property
+    def table(self) -> StationSection | None:
+        """The section if it is a table of stations, else None."""
+        return self.section if isinstance(self.section, StationSection) else None
 
     def _require_masses(self) -> None:
         m = self.mass - sum(one.mass for one in self.point_masses)

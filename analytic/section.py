@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -16,9 +16,6 @@ from .arrays import FloatArray, Profile, evaluated, in_units, stations, times
 from .description import Described
 from .input_checks import checked_profile, finite_number, positive, require_along, warn_if_giga
 from .theory import Theory
-
-if TYPE_CHECKING:
-    from .station_section import StationSection
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,11 +91,6 @@ class Section(Described):
     mass_per_length: Profile
     rotary_inertia: Profile | None = None
     out_of_plane: OutOfPlane | None = None
-
-    @property
-    def table(self) -> StationSection | None:
-        """The section itself if 6x6 matrices at stations tell stiffness and mass, else None."""
-        return None
 
     @property
     def knows_space(self) -> bool:

@@ -163,11 +163,6 @@ class StationSection(Section):
     out_of_plane: OutOfPlane | None = field(init=False, default=None)
 
     @property
-    def table(self) -> StationSection:
-        """The section itself."""
-        return self
-
-    @property
     def knows_space(self) -> bool:
         """True: the matrices tell it."""
         return True

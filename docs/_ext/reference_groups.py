@@ -38,6 +38,7 @@ GROUPS = (
         "Linear vibration",
         "Small vibration about steady rotation.",
         analytic="linear_modes campbell damping_ratios steady_state state_space",
+        analytic__exact__linear__damping="modal_damping",
         analytic__exact__linear__modes="LinearModes",
         analytic__exact__linear__campbell="Campbell Crossing",
     ),

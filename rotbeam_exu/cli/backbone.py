@@ -72,7 +72,7 @@ def backbone(
     """
     blade, omega, theory = request.blade, request.omega, request.theory
     if amplitude is None:
-        amplitude = [(1 if blade.section.table else 5) * n / 100 for n in range(1, 5)]
+        amplitude = [(1 if blade.table else 5) * n / 100 for n in range(1, 5)]
     if mode != "lag 1" and (variant is not None or all_variants):
         raise ValueError("the reduced models are of lag 1: leave the variants out, or --mode")
     variants = list(analytic.VARIANTS) if all_variants else [variant] if variant else []

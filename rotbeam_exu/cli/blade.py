@@ -66,7 +66,7 @@ def blade(
             modes = analytic.linear_modes(blade, omega, _COUNT, **how)
             turning[f"at {omega:g} rad/s [Hz]"] = _named(modes, rest) / (2.0 * np.pi)
         others = {}
-        if table := blade.section.table:
+        if table := blade.table:
             (way,) = set(get_args(Interpolation)) - {table.interpolation}
             others[way] = _changes(blade, table, way, rest, how)
     place, mass = blade.unit.inertia(32)
@@ -133,7 +133,7 @@ def _print_section(blade: Blade) -> None:
     """Print stiffness and mass at the root, at the tip, and their extremes."""
     from ..report.blade import sections_of
 
-    if table := blade.section.table:
+    if table := blade.table:
         print_line("stations", f"{len(table.x)}")
     values = sections_of(blade).data_vars
     print_columns(

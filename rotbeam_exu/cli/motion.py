@@ -36,7 +36,7 @@ def chosen_speeds(blade: Blade, *of_paper: float) -> list[float]:
 
     Those of a table of stations are a quarter.
     """
-    share = (_TABLE_SPEED if blade.section.table else 1.0) / slower_than_paper(blade)
+    share = (_TABLE_SPEED if blade.table else 1.0) / slower_than_paper(blade)
     return [_rounded(omega * share, 2) for omega in of_paper]
 
 
@@ -45,7 +45,7 @@ def chosen_times(blade: Blade, *of_paper: float, digits: int = 2) -> list[float]
 
     Those of a table of stations are seven times as long.
     """
-    longer = (_TABLE_TIME if blade.section.table else 1.0) * slower_than_paper(blade)
+    longer = (_TABLE_TIME if blade.table else 1.0) * slower_than_paper(blade)
     return [_rounded(time * longer, digits) for time in of_paper]
 
 
@@ -73,7 +73,7 @@ def chosen_motion(
     steps. A given duration or step is kept and the other fitted to it; a chosen duration leaves
     five periods after the ramp, of a table of stations no more.
     """
-    table = blade.section.table
+    table = blade.table
     omega = chosen_speeds(blade, _OMEGA)[0] if omega is None else omega
     ramp_time = chosen_times(blade, _RAMP_TIME)[0] if ramp_time is None else ramp_time
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
@@ -116,7 +116,7 @@ def grid_motion(
 
 def whose_speeds(blade: Blade) -> str:
     """Return whose ω/ω_0 chosen speeds have, in words."""
-    share = f"{_TABLE_SPEED:g} times " if blade.section.table else ""
+    share = f"{_TABLE_SPEED:g} times " if blade.table else ""
     return f"{share}the benchmark's"
 
 

@@ -186,7 +186,7 @@ def _request(config: Path | None, file: RunFile, arguments: Mapping[str, Any]) -
 
 def _element_of(blade: Blade) -> dict[str, str]:
     """Return the element of a table of stations, in place of the paper's: it bends in space."""
-    return {"element": "space_exact"} if blade.section.table else {}
+    return {"element": "space_exact"} if blade.table else {}
 
 
 def _theory(pairs: Sequence[str]) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from typing import Any, get_args
 
 from analytic import Beam, Blade, Damping, PointMass, Section, Theory
 from analytic.description import from_description
+from analytic.exact.linear.damping import modal_damping
 from analytic.input_checks import positive, rotation_speed, shown, whole_number
 from analytic.loads import Load
 from analytic.parts import Line
@@ -50,8 +51,9 @@ def load_beam(path: str | os.PathLike[str]) -> Blade:
     [rad], precone [rad], prebend and sweep [1/m], mass_offset and tension_offset [m], kinks;
     [blade.stations], in place of length and section, the keywords of `Blade.from_stations` or of
     `Blade.from_shapes`, or the name of a `file`; [blade.damping] ratio, of mode 1 in the plane at
-    rest, or bending [s], axial [s] and external [kg/(m s)], relative to the turning frame and not
-    of point masses, each zero where it is not given.
+    rest or, as { "flap 1" = 0.005, "lag 1" = 0.005 }, of modes by name, or bending [s], axial [s]
+    and external [kg/(m s)], relative to the turning frame and not of point masses, each zero where
+    it is not given.
 
     Such a `file`, which may be read alone too, is a CSV as `blade_of_csv` reads, BeamDyn's primary
     file, HAWC2's .htc or _st, or, with length, axial_stiffness and torsion_stiffness beside it, a
@@ -184,8 +186,10 @@ def _blade(table: dict[str, Any], folder: Path) -> Blade:
         parts["section"] = Section(**section)
     point_masses = tuple(PointMass(**one) for one in masses)
     blade = _shaped(Blade(**parts, line=Line(**line), point_masses=point_masses), shape)
-    if "ratio" in damping:
-        return blade.with_damping(Damping.from_ratio(blade, 1, damping["ratio"]))
+    if isinstance(ratio := damping.get("ratio"), dict):
+        return blade.with_damping(modal_damping(blade, ratio))
+    if ratio is not None:
+        return blade.with_damping(Damping.from_ratio(blade, 1, ratio))
     return blade.with_damping(Damping(**damping))
 
 

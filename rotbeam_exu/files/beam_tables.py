@@ -48,7 +48,7 @@ _BLADE = {
     "hub_radius": float,
     "setting_angle": float,
     "point_mass": list[PointMass],
-    "damping": (table_of(Damping), Table({"ratio": float}, {})),
+    "damping": (table_of(Damping), Table({"ratio": float | dict[str, float]}, {})),
     "line": table_of(Line),
 }
 NUMERICS = Table(
@@ -148,6 +148,8 @@ def _schema_of(content: object) -> dict[str, object]:
         }
     if get_origin(content) is Literal:
         return {"enum": list(get_args(content))}
+    if get_origin(content) is dict:
+        return {"type": "object", "additionalProperties": {"type": "number"}}
     if not isinstance(content, tuple) and content in _TYPES:
         return {"type": _TYPES[content]}
     parts: Iterable[object] = (

@@ -34,7 +34,7 @@ def blade_toml(blade: Blade, **others: Any) -> str:
     else:
         parts = _changed(blade)
         for name, key in (("point_masses", "point_mass"), ("section", "stations")):
-            if name in parts and (name != "section" or blade.section.table):
+            if name in parts and (name != "section" or blade.table):
                 parts[key] = parts.pop(name)
         if "stations" in parts:
             del parts["length"]

@@ -178,7 +178,7 @@ def write_beamdyn(blade: Blade, path: Path) -> list[Path]:
     ValueError
         If the blade is not from stations, or has what BeamDyn's files cannot hold.
     """
-    if (table := blade.section.table) is None:
+    if (table := blade.table) is None:
         raise ValueError("BeamDyn's files hold 6x6 matrices: make the blade by Blade.from_stations")
     for name, there in (("point masses", blade.point_masses), ("kinks", blade.line.kinks),
                         ("external damping", blade.damping.external)):  # fmt: skip

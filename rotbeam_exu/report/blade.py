@@ -115,7 +115,7 @@ def blade_parts(
 
 def sections_of(blade: Blade) -> xr.Dataset:
     """Return stiffness and mass per length over `x` [m], at the stations of a table."""
-    if table := blade.section.table:
+    if table := blade.table:
         x = np.array(table.x)
         values = dict(zip(STIFFNESSES, table.stiffnesses.T, strict=True))
         values["m"] = np.array(table.mass_per_length)[:, 1]

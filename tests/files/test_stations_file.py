@@ -194,6 +194,9 @@ def test_two_twists_are_refused(loaded):
             r"write \[\[blade.stations.shapes\]\] as a table",
         ),
         ('[blade]\nstations = "a.csv"', r"write \[blade.stations\] as a table, file = 'a.csv' in"),
+        (RATIO.replace("0.02", '{ "lag 99" = 0.02 }'), "ratios name lag 99; the 12 lowest modes"),
+        (RATIO.replace("0.02", '{ "lag 1" = true }'), "the ratio of lag 1 must be a number"),
+        (RATIO.replace("0.02", "{}"), "ratios must name modes"),
         (f"{RATIO}bending = 0.1\n", r"unknown key 'bending' in \[blade.damping\]"),
     ],
 )
@@ -211,6 +214,8 @@ def test_shapes_and_a_damping_ratio(loaded):
     assert damped == plain.with_damping(Damping.from_ratio(plain, 1, 0.02))
     # At rest, as close as the frequency is that the ratio was made with.
     assert damping_ratios(damped, omega=0.0)[0] == pytest.approx(0.02, rel=1e-6)
+    by_name = RATIO.replace("0.02", '{ "lag 1" = 0.02 }')
+    assert damping_ratios(loaded(PLANAR, by_name), omega=0.0)[0] == pytest.approx(0.02, rel=1e-6)
 
 
 def refused(folder, text, name):

@@ -57,7 +57,7 @@ def resolved_model(
 
 def require_shear(blade: Blade, theory: Theory) -> None:
     """Refuse a number for sections that tell their shear stiffness, and True for others."""
-    if theory.shear is not None and (theory.shear is True) != bool(blade.section.table):
+    if theory.shear is not None and (theory.shear is True) != bool(blade.table):
         raise ValueError(
             f"shear = {theory.shear} does not fit the blade: a blade from stations tells its "
             "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "

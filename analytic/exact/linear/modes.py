@@ -1,4 +1,4 @@
-"""Linear modes of the exact beam about its rotating steady state, and how fast they decay."""
+"""Linear modes of the exact beam about its rotating steady state."""
 
 from __future__ import annotations
 
@@ -7,15 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm, with_torsion
 from ...input_checks import rotation_speed, shown, whole_number
-from ...methods.system import inverse_eigenvalues
 from ...settled import require_tolerance, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
-from ..continuum.planar import MOST_FUNCTIONS
 from ..continuum.rotation import (
     FUNCTIONS,
     SteadyBlade,
@@ -26,7 +23,6 @@ from ..continuum.rotation import (
 )
 from .families import FAMILIES, Family, LinearModes, mode_names, modes_of, places_of
 
-_SAME = 0.3  # how far |λ| may be from the undamped frequency, relative to it
 _WHOLE = 1.25  # times the last change is an error that falls by 5 or more each time
 
 
@@ -197,60 +193,3 @@ def mode_name(blade: Blade, omega: float, mode: object, theory: Theory) -> str:
             f"are {', '.join(FAMILIES)}"
         )
     return f"{family} {int(number_of)}"
-
-
-@one_thread
-def damping_ratios(
-    blade: Blade,
-    omega: float,
-    count: int = 3,
-    *,
-    theory: Theory = BERNOULLI_EULER,
-    tolerance: float | None = None,
-) -> FloatArray:
-    """Return the damping ratios ζ of the modes of `linear_modes`, (count,).
-
-    ζ = -Re λ/|λ| of the eigenvalues λ of small vibration about the stretched state; free vibration
-    of mode j decays as exp(-ζ_j |λ_j| t), with |λ_j| near the frequency of `linear_modes`.
-
-    Parameters
-    ----------
-    beam, omega, count, theory, tolerance
-        As for `linear_modes`.
-
-    Raises
-    ------
-    ValueError
-        If an input is refused, or a mode is damped so much that it does not oscillate.
-
-    Examples
-    --------
-    >>> from analytic import Beam, Damping, damping_ratios
-    >>> blade = Beam.reference().with_damping(Damping(bending=1e-3, external=0.01))
-    >>> for omega in (0.0, 6.0):
-    ...     print(damping_ratios(blade, omega).round(5))
-    [0.00996 0.01047 0.02601]
-    [0.00791 0.00831 0.02347]
-    """
-    omega, count = rotation_speed(omega), whole_number("count", count, most=MOST_FUNCTIONS // 2)
-    modes = linear_modes(
-        blade, omega, count, theory=theory, functions=max(20, 2 * count), tolerance=tolerance
-    )
-    tangent = modes.steady.linearized
-    ratios, sizes = np.empty(count), modes.frequencies / blade.frequency_scale
-    for block in modes.steady.blocks:
-        parts = (part[0][np.ix_(block, block)] for part in tangent[:0:-1])
-        inverse = inverse_eigenvalues(*parts)
-        inverse = inverse[inverse.imag < 0.0]
-        moving = np.flatnonzero(modes.coordinates[:, block].any(axis=1))
-        off = np.abs(1.0 / (np.abs(inverse) * sizes[moving, None]) - 1.0)
-        nearest = np.argmin(off, axis=1)
-        for k, (mode, found) in enumerate(zip(moving, nearest, strict=True)):
-            if off[k, found] > _SAME or found in nearest[:k]:
-                raise ValueError(
-                    f"mode {mode + 1} is damped so much that it does not oscillate: ask for count="
-                    f"{mode} or less, or take less damping"
-                )
-        # -Re λ/|λ| is -Re(1/λ)/|1/λ|.
-        ratios[moving] = -inverse[nearest].real / np.abs(inverse[nearest])
-    return ratios

@@ -139,7 +139,7 @@ class Formulation(Described, abstract=True):
 
     def theory_of(self, blade: Blade) -> Theory:
         """Theory of its beam where it models a blade; a table of stations tells its own shear."""
-        table = blade.section.table and self.shear_share is not None
+        table = blade.table and self.shear_share is not None
         return replace(self.theory, shear=True) if table else self.theory
 
     def lay(self, mbs: exudyn.MainSystem, blade: Any, elements: int) -> Chain:
@@ -221,7 +221,7 @@ class Formulation(Described, abstract=True):
     def require_section(self, blade: Blade) -> None:
         """Refuse a blade whose line or section the element does not model."""
         require_blade(blade)
-        table = blade.section.table
+        table = blade.table
         remedy = "element='space_exact', on the command line --element space_exact"
         if blade.line.kinks or blade.point_masses:
             remedy = "analytic.spin_up_response, or on the command line rotbeam reference"

@@ -77,7 +77,7 @@ class SpaceExact(Sheared, FrameNodes):
                 "element 'space_exact' takes a smooth line, and the line of this blade has kinks: "
                 "take analytic.spin_up_response, or on the command line rotbeam reference"
             )
-        if blade.section.table:
+        if blade.table:
             return
         out = blade.section.out_of_plane
         torsion = None if out is None else out.torsion_ratio
