@@ -21,6 +21,9 @@ from .options import Number, Whole
 from .output import bar, print_text
 from .request import Request, uses
 
+_SEEN = 1e-4
+"""Error of the film's places over the largest deflection, below a tenth of its lines."""
+
 
 @uses("speed", "ramp_time", "duration", "theory")
 def animate(
@@ -103,7 +106,7 @@ def animate(
         points = np.linspace(0.0, blade.length, 41)
         with bar("integrating"):
             exact = spin_up_response(
-                blade, spin_up, times, tolerance=1e-5, points=points, theory=request.theory
+                blade, spin_up, times, tolerance=_SEEN, points=points, theory=request.theory
             )
             data = dataset_of(exact)
             if beside:
