@@ -199,7 +199,7 @@ def check_run(run: xr.Dataset) -> str:
     """Return "passed", or raise with the first bad time, the number and the remedy.
 
     A SimulationError, if a run of `simulate` did not reach its end, holds a number that is not
-    finite, leaves the reach of the beam, strains it beyond the linear law, or violates the clamp.
+    finite, leaves the reach of a beam whose tension is on its line, strains it beyond the linear law, or violates the clamp.
     If it does not conserve the Jacobi energy E - ω L_z in steady rotation, but for the energy
     supplied.
     """
@@ -218,9 +218,12 @@ def check_run(run: xr.Dataset) -> str:
     steady = time >= float(attrs["ramp_time"])
     energy, its_name = balanced_energy(run)
     drift = np.where(steady, np.abs(energy - energy[int(np.argmax(steady))]), 0.0)
+    blade = beam_of(attrs)
+    # Where tension is off the line it bends the blade, which lengthens the line, not the sections.
+    on_the_line = blade.table is None and not any(blade.line.tension_offset)
     checks = {
         "the tip's distance from the clamp over the length": (
-            _reach(run) / length, 1.0 + STRAIN_LIMIT
+            _reach(run) / length, 1.0 + STRAIN_LIMIT if on_the_line else math.inf
         ),
         "the axial strain": (run["axial_strain"].to_numpy(), STRAIN_LIMIT),
         "the clamp's position error over the length": (
