@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from analytic.exact.linear.families import LinearModes
 
 _COUNT = 6  # modes
+_CHANGE = 1e-4  # of frequencies with the other interpolation, which a person reads in percent
 
 
 @uses("theory", "tolerance", "motion.omega")
@@ -82,7 +83,7 @@ def blade(
             "at rest [Hz]": formatted(rest.frequencies / (2.0 * np.pi), ".6f"),
             "[rad/s]": formatted(rest.frequencies, ".6f"),
             **{title: formatted(values, ".6f") for title, values in turning.items()},
-            **{f'"{way}" [%]': formatted(changes, "+.4f") for way, changes in others.items()},
+            **{f'"{way}" [%]': formatted(changes, "+.2f") for way, changes in others.items()},
         },
         title=f"Frequencies, {request.theory}",
     )
@@ -117,7 +118,7 @@ def _changes(
     """Return the relative changes of frequencies [%] with the other interpolation."""
     other = replace(blade, section=replace(section, interpolation=way))
     try:
-        modes = analytic.linear_modes(other, 0.0, _COUNT, **how)
+        modes = analytic.linear_modes(other, 0.0, _COUNT, **{**how, "tolerance": _CHANGE})
     except ValueError:  # it did not settle
         return np.full_like(rest.frequencies, np.nan)
     return 100.0 * (_named(modes, rest) / rest.frequencies - 1.0)
