@@ -1,7 +1,8 @@
-"""Labeled data: a Dataset of numbers with their dims and labels, and labels that several share."""
+"""Labeled data: a Dataset of numbers with dims and labels, labels that several share, rounding."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from numpy.typing import ArrayLike
@@ -43,3 +44,10 @@ def dataset(
         },
         attrs,
     )
+
+
+def one_two_five(value: float) -> float:
+    """Return the next of 1, 2, 5 times a power of ten that is not above, but for round-off."""
+    exponent = math.floor(math.log10(value * (1.0 + 1e-9)))
+    first = max(n for n in (1, 2, 5) if n <= value * (1.0 + 1e-9) / 10.0**exponent)
+    return float(f"{first}e{exponent}")

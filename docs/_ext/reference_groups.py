@@ -101,7 +101,7 @@ GROUPS = (
         rotbeam_exu="dataset_of save load sweep",
         rotbeam_exu__sweeps__grid="failures",
         rotbeam_exu__files__beam_file="load_beam",
-        rotbeam_exu__runs__shape="shape_of",
+        rotbeam_exu__runs__shape="shape_of vibration_of",
         rotbeam_exu__files__vtk="save_vtk",
     ),
     _group(

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from analytic import Beam, Blade, SpinUp
 from analytic.input_checks import positive
 
+from ..labels import one_two_five
+
 _OMEGA, _RAMP_TIME, _DURATION, _STEP = 6.0, 3.0, 15.0, 1e-3
 """The paper's choices for its beam [rad/s, s, s, s]; other beams keep their ratios to ω_0."""
 
@@ -79,7 +81,7 @@ def chosen_motion(
     spin_up = SpinUp(omega=omega, ramp_time=ramp_time)
     step = None if step is None else positive("step", step, "s")
     small = _STEP * slower_than_paper(blade) * (_TABLE_STEP if table else 1.0)
-    fine = _one_two_five(min(small, spin_up.ramp_time / _STEPS_PER_RAMP))
+    fine = one_two_five(min(small, spin_up.ramp_time / _STEPS_PER_RAMP))
     if duration is None:
         enough = spin_up.ramp_time + _STEADY_PERIODS * 2.0 * math.pi / blade.omega_0
         duration = 0.0 if table else chosen_times(blade, _DURATION)[0]
@@ -136,10 +138,3 @@ def _rounded(value: float, digits: int, *, up: bool = False) -> float:
         # Through the decimal text, for a power of ten times a number is not the number printed.
         return float(f"{math.ceil(value * 10.0**unit * (1.0 - 1e-12))}e{-unit}")
     return float(f"{value:.{digits - 1}e}")
-
-
-def _one_two_five(value: float) -> float:
-    """Return the next of 1, 2, 5 times a power of ten that is not above, but for round-off."""
-    exponent = math.floor(math.log10(value * (1.0 + 1e-9)))
-    first = max(n for n in (1, 2, 5) if n <= value * (1.0 + 1e-9) / 10.0**exponent)
-    return float(f"{first}e{exponent}")

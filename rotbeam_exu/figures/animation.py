@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -22,6 +23,7 @@ from analytic.arrays import ComplexArray, FloatArray
 from analytic.motion import SpeedChange
 
 from ..files.results import whole_file
+from ..labels import one_two_five
 from ..lazily import xr
 from ..paper import BLUE, RED
 from ..runs.attributes import beam_of, motion_of
@@ -38,6 +40,7 @@ _FAR = 100.0  # lengths: what is farther is drawn there, out of every view
 _CLAMP: Any = {"color": "0.6", "lw": 0.8, "ls": (0, (4, 3)), "zorder": 0}  # line of the clamp
 _CHORD = 0.1  # of the strip that shows how sections stand, over the length
 _ABOVE, _SIDE = 1, 2  # the direction that goes up in a view, y or z; x goes to the right
+_LEAST = 1e-6  # of q and w over L, that digits of their numbers tell
 _SOON = 5.0  # seconds that need no bar
 _Moving = Callable[[int], None]  # draws a part anew at time number n
 
@@ -120,23 +123,27 @@ def animate(
     (scale, prefix), faster = prefix_of(time[-1]), prefix_of(main.motion.fastest)
     with mpl.rc_context({**STYLE, **_LETTERS}):
         history, moving = _two_models(main, other) if other else _two_frames(main)
-        shade_ramp(history, data.attrs["ramp_time"])
+        if data.attrs["ramp_time"]:
+            shade_ramp(history, data.attrs["ramp_time"])
         history.axhline(0.0, color="0.6", lw=0.5)
         history.set(xlim=(0.0, time[-1]), xlabel="time [s]")
         fitting_units(history)
         words = history.set_title("", loc="left", family="monospace")
         figure = figure_of(history)
 
+    largest = max(np.abs(main.q).max(), np.abs(main.flap).max(), _LEAST)
+    digits = max(2, 1 - math.floor(math.log10(largest)))
+
     def draw(n: int) -> list[Any]:
         for move in moving:
             move(n)
         rate_now = float(main.motion.rate(time[n])) / faster[0]
         line = f"t = {time[n] / scale:5.2f} {prefix}s  dθ/dt = {rate_now:4.2f} {faster[1]}rad/s"
-        line += f"  q/L = {main.q[n]:+5.2f}"
+        line += f"  q/L = {main.q[n]:+5.{digits}f}"
         if other:
             line += f", linear {other.q[n]:{'+6.2f' if abs(other.q[n]) < 100.0 else '+6.0f'}}"
         elif main.leaves_plane:
-            line += f"  w/L = {main.flap[n]:+5.2f}"
+            line += f"  w/L = {main.flap[n]:+5.{digits}f}"
         words.set_text(line.replace("-", "−"))
         return []
 
@@ -313,12 +320,14 @@ def _view(ax: Axes, title: str, reach: float, left: float = _REACH) -> None:
 
 
 def _scale_bar(ax: Axes, of: _Shown, start: float) -> None:
-    """Draw a bar of a quarter of the beam's length below a view, and name the dashes beside it."""
-    bar, low, left = 0.25 * of.length, -0.98 * _REACH * of.reach, start * of.reach
+    """Draw a bar of a round part of the beam's length below a view, and name the dashes above."""
+    bar = one_two_five(0.5 * of.length)
+    low, left, reach = -0.98 * _REACH * of.reach, start * of.reach, of.reach
     ax.plot([left, left + bar], [low, low], color="0.35", lw=1.0)
-    ax.text(left + 1.2 * bar, low, quantity(bar, "m"), va="center", color="0.35")
-    ax.plot([left + 2.6 * bar, left + 3.3 * bar], [low, low], **_CLAMP)
-    ax.text(left + 3.5 * bar, low, "clamp", va="center", color="0.35")
+    ax.text(left + bar + 0.05 * reach, low, quantity(bar, "m"), va="center", color="0.35")
+    above = low + 0.14 * reach
+    ax.plot([left, left + 0.2 * reach], [above, above], **_CLAMP)
+    ax.text(left + 0.25 * reach, above, "clamp", va="center", color="0.35")
 
 
 def _history(history: Axes, of: _Shown, values: FloatArray, color: str, dot: str) -> _Moving:

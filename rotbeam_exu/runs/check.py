@@ -199,9 +199,9 @@ def check_run(run: xr.Dataset) -> str:
     """Return "passed", or raise with the first bad time, the number and the remedy.
 
     A SimulationError, if a run of `simulate` did not reach its end, holds a number that is not
-    finite, leaves the reach of a beam whose tension is on its line, strains it beyond the linear law, or violates the clamp.
-    If it does not conserve the Jacobi energy E - ω L_z in steady rotation, but for the energy
-    supplied.
+    finite, leaves the reach of a beam whose tension is on its line, strains it beyond the linear
+    law, or violates the clamp. If it does not conserve the Jacobi energy E - ω L_z in steady
+    rotation, but for the energy supplied.
     """
     time = np.asarray(run["time"], dtype=np.float64)
     attrs = run.attrs

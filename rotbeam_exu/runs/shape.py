@@ -13,13 +13,25 @@ from analytic.arrays import FloatArray, evaluated, slope_of
 from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.exact.continuum.state import SectionLoads
 from analytic.exact.continuum.unit import space_unit, trapeze_of
-from analytic.input_checks import along, finite_array, require_offset
+from analytic.exact.linear.families import LinearModes
+from analytic.input_checks import (
+    along,
+    finite_array,
+    points_of_beam,
+    positive,
+    require_offset,
+    shown,
+    whole_number,
+)
+from analytic.lazily import spatial
 from analytic.theory import BERNOULLI_EULER
 
 from ..labels import dataset
 from ..lazily import xr
 from .attributes import beam_of, blade_attributes
 
+_OVER = "time", "station"
+_PLACE, _SECTION = "place in the frame of the clamp [m]", "section's axes"
 _ALIKE = 0.01  # of a side, by which rounded stiffnesses may vary
 
 
@@ -44,22 +56,18 @@ def shape_of(loads: SectionLoads) -> xr.Dataset:
     {'time': 2, 'station': 3, 'direction': 3, 'section_axis': 3} 0.00428
     """
     strains = _strains(loads)
-    over = ("time", "station")[-loads.place.ndim + 1 :]
+    over = _OVER[-loads.place.ndim + 1 :]
     by_axis = (*over, "section_axis")
     return dataset(
         {
-            "place": ((*over, "direction"), loads.place, "place in the frame of the clamp [m]"),
-            "section": ((*over, "direction", "section_axis"), loads.section, "section's axes"),
+            "place": ((*over, "direction"), loads.place, _PLACE),
+            "section": ((*over, "direction", "section_axis"), loads.section, _SECTION),
             "force": (by_axis, loads.force, "force on the inboard part [N]"),
             "moment": (by_axis, loads.moment, "moment on the inboard part [N m]"),
             "strain": (over, strains[..., 0], "strain of the axis"),
             "curvature": (by_axis, strains[..., 3:], "elastic twist and curvatures [1/m]"),
         },
-        {
-            "station": (loads.stations, "distance from the clamp [m]"),
-            "direction": ["x", "y", "z"],
-            "section_axis": ["normal", "chord", "thickness"],
-        },
+        _coordinates(loads.stations),
         blade_attributes(loads.blade),
     )
 
@@ -240,3 +248,72 @@ def _flexibility(blade: Blade, x: FloatArray) -> FloatArray:
     soft[:, 5, 5] = 1.0 / evaluated(blade.unit.bending, x)
     soft[:, 4, 4] = soft[:, 5, 5] / out.bending_ratio if out else 0.0
     return soft
+
+
+def vibration_of(
+    modes: LinearModes, mode: str, points: ArrayLike, *, amplitude: float = 0.1, pictures: int = 40
+) -> xr.Dataset:
+    """Return a blade that vibrates in one mode about its steady rotation, for a film.
+
+    For two periods, the small vibration drawn large; columns as of `shape_of`, with `angle`.
+
+    Parameters
+    ----------
+    modes : LinearModes
+    mode : str
+        One of its names, as "flap 1".
+    points : array_like (stations,)
+        Distances from the clamp [m].
+    amplitude : float
+        Largest displacement of the tip over the length; of a tip that only turns, its angle [rad].
+    pictures : int
+        Times in a period.
+
+    Raises
+    ------
+    ValueError
+        If the modes do not have this name, or an argument is out of range.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Rectangle, linear_modes
+    >>> from rotbeam_exu.runs.shape import vibration_of
+    >>> modes = linear_modes(Beam.reference().with_shape(Rectangle()), omega=6.0, count=4)
+    >>> data = vibration_of(modes, "flap 2", [0.0, 4.0, 8.0])
+    >>> print(dict(data["place"].sizes), data["place"][0, -1].values.round(3))
+    {'time': 80, 'station': 3, 'direction': 3} [8.  0.  0.8]
+    """
+    if mode not in modes.names:
+        raise ValueError(f"mode must be one of {', '.join(modes.names)}, got {shown(mode)}")
+    number, size, length = (
+        modes.names.index(mode),
+        positive("amplitude", amplitude),
+        modes.blade.length,
+    )
+    time = np.arange(2 * whole_number("pictures", pictures)) / pictures
+    time *= 2.0 * math.pi / modes.frequencies[number]
+    at, still = points_of_beam("points", points, length), modes.steady.equilibrium[None]
+    place, section = modes.model.standing(still, at)
+    turning = np.exp(1j * modes.frequencies[number] * time)
+    moved = (turning[:, None, None] * size * modes.shapes(length * at)[..., number].T).real
+    turn = spatial.transform.Rotation.from_rotvec(moved[..., 3].reshape(-1, 1) * [1.0, 0.0, 0.0])
+    place = length * (place + moved[..., :3])
+    section = turn.as_matrix().reshape(*place.shape, 3) @ section
+    return dataset(
+        {
+            "place": ((*_OVER, "direction"), place, _PLACE),
+            "section": ((*_OVER, "direction", "section_axis"), section, _SECTION),
+            "angle": ("time", modes.omega * time, "angle of the clamp [rad]"),
+            "q": ("time", place[:, -1, 1], "deflection of the tip [m]"),
+        },
+        {"time": (time, "time [s]"), **_coordinates(length * at)},
+        {**blade_attributes(modes.blade), "omega": modes.omega, "ramp_time": 0.0, "mode": mode},
+    )
+
+
+def _coordinates(stations: FloatArray) -> dict[str, object]:
+    return {
+        "station": (stations, "distance from the clamp [m]"),
+        "direction": ["x", "y", "z"],
+        "section_axis": ["normal", "chord", "thickness"],
+    }

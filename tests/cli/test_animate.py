@@ -96,3 +96,22 @@ def test_a_body_for_paraview_has_the_height_and_width_given(call, tmp_path):
     text = (tmp_path / "film" / "film-0002.vtu").read_text()
     assert f'NumberOfPoints="{4 * 41}" NumberOfCells="40"' in text
     assert 'Name="stress"' in text
+
+
+def test_a_mode_is_shown_alone_and_slowly(call, monkeypatch, tmp_path):
+    (tmp_path / "strip.toml").write_text(f"{REED_TOML}[beam.shape]\nkind = 'Rectangle'\n")
+    options = ("--config", tmp_path / "strip.toml", "--omega", "100", "--mode")
+    code, out, shown = film(call, monkeypatch, tmp_path, *options, "flap 1")
+    assert code == 0, out
+    assert "flap 1 at 100 rad/s" in out
+    data = shown["data"]
+    assert data.sizes["time"] == 80  # two periods, two seconds each
+    assert abs(data["place"][0, -1, 2]) == pytest.approx(0.1 * 0.05, rel=1e-6)
+    for more, sentence in (
+        (("flap 1", "--beside", "linear"), "--mode shows a mode alone: leave out --beside"),
+        (("flop 1",), "mode must be one of lag 1"),
+    ):
+        code, out, _ = film(call, monkeypatch, tmp_path, *options, *more)
+        assert (code, sentence in out) == (2, True), out
+    code, _, out = call("animate", *options, "flap 1", "--out", tmp_path / "film.pvd")
+    assert (code, "the ending must be .gif or .mp4" in out) == (2, True), out

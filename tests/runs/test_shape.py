@@ -14,12 +14,15 @@ from analytic import (
     SpeedRipple,
     SpinUp,
     SteadyRotation,
+    Theory,
     TipForce,
+    linear_modes,
     periodic_orbits,
     spin_up_response,
 )
 from rotbeam_exu import simulate
-from rotbeam_exu.runs.shape import outer_strain, shape_of
+from rotbeam_exu.runs.shape import outer_strain, shape_of, vibration_of
+from tests.beams import unit_beam
 
 TIMES = np.linspace(0.0, 4.0, 101)
 ROOT = ("root_force_x", "root_force_y", "root_moment_z")
@@ -234,3 +237,33 @@ def test_the_largest_strain_is_that_of_the_fiber_farthest_from_the_axis(beam, re
     bent = np.diff(np.asarray(angle)[:, [0, 2]], axis=1)[:, 0] / 0.02
     curvature = near["curvature"].sel(section_axis="thickness").isel(station=1)
     np.testing.assert_allclose(curvature, bent, atol=2e-2 * np.abs(bent).max())
+
+
+def test_a_mode_vibrates_about_the_steady_state():
+    """At rest as the cantilever's closed form, by the cosine of its own frequency."""
+    blade = unit_beam(1e-6).with_section_out_of_plane(0.25, 0.2)
+    modes, x = linear_modes(blade, 0.0, 4, theory=Theory(extension=False)), np.linspace(0.0, 1.0, 5)
+    root = 4.694091132974175  # of 1 + cos β cosh β
+    ratio = (np.cosh(root) + np.cos(root)) / (np.sinh(root) + np.sin(root))
+    bent = np.cosh(root * x) - np.cos(root * x) - ratio * (np.sinh(root * x) - np.sin(root * x))
+    data = vibration_of(modes, "lag 2", x, amplitude=0.05, pictures=20)
+    assert data["time"][20] == pytest.approx(2.0 * np.pi / root**2, rel=1e-6)
+    swing = np.outer(np.cos(root**2 * data["time"]), 0.05 * bent / bent[-1])
+    np.testing.assert_allclose(data["place"][..., 1], swing, atol=1e-6)
+    np.testing.assert_allclose(data["place"][..., 0], np.tile(x, (40, 1)), atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"mode": "flap 9"}, "mode must be one of lag 1, .*got 'flap 9'"),
+        ({"mode": 1}, "mode must be one of lag 1"),
+        ({"amplitude": -0.1}, "amplitude must be positive"),
+        ({"pictures": 0}, "pictures must be"),
+        ({"points": [0.0, 2.0]}, "points"),
+    ],
+)
+def test_what_is_no_vibration_is_refused(change, sentence):
+    modes = linear_modes(unit_beam(1e-3), 0.0, 2)
+    with pytest.raises(ValueError, match=sentence):
+        vibration_of(modes, **{"mode": "lag 1", "points": [0.0, 1.0], **change})
