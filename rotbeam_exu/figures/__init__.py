@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from .animation import animate, save_animation
 from .backbones import figure_5, figure_14
-from .blade import blade_sections, mode_shapes, root_over_turn, steady_tip
+from .blade import blade_sections, mode_shapes, root_over_turn, steady_tip, strain_along
 from .paper_figure import PAPER_FIGURES, caption
 from .results import (
     campbell,
@@ -28,5 +28,5 @@ __all__ = [
     "figure_4", "figure_5", "figure_8", "figure_9", "figure_10", "figure_11", "figure_12",
     "figure_13", "figure_14", "figure_15", "forced_response", "growth_out_of_plane", "mode_shapes",
     "planar_stability", "residual", "root_over_turn", "save_animation", "save_figure",
-    "softening_map", "spin_up", "steady_tip", "style",
+    "softening_map", "spin_up", "steady_tip", "strain_along", "style",
 ]  # fmt: skip

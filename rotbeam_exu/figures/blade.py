@@ -1,4 +1,4 @@
-"""Figures of a blade's report: along its span, over its speed, and over a turn."""
+"""Figures of a blade's report: along its span, over its speed, over a turn; strain."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from analytic.exact.linear.families import LinearModes
 
-from .style import columns, house_axes, label
+from .style import column, columns, fitting_units, house_axes, label, ramp
 
 
 def blade_sections(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Axes]:
@@ -58,3 +58,36 @@ def root_over_turn(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequen
             )  # fmt: skip
             panel.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22))
     return tuple(axes)
+
+
+def strain_along(data: xr.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw the stress, or without it the strain, of each point of the sections along the span.
+
+    Of data over time the band from the least to the largest, and both as lines: what
+    `rotbeam_exu.runs.shape.strain_at` returns.
+
+    Raises
+    ------
+    ValueError
+        If the data have no strain over stations.
+    """
+    if "strain" not in data or not {"station", "point"} <= set(data["strain"].dims):
+        raise ValueError(
+            "strain_along draws what runs.shape.strain_at returns, of two stations or more"
+        )
+    values = data["stress" if "stress" in data else "strain"]
+    with house_axes(ax, column(), 2.8) as axes:
+        for number, color in enumerate(ramp(data.sizes["point"])):
+            one, name = values.isel(point=number), f"point {number + 1}"
+            if "time" not in one.dims:
+                axes.plot(one["station"], one, color=color, label=name)
+                continue
+            ends = one.min("time"), one.max("time")
+            axes.fill_between(one["station"], *ends, color=color, alpha=0.2, lw=0.0)
+            for end, words in zip(ends, (name, None), strict=True):
+                axes.plot(one["station"], end, color=color, label=words)
+        axes.axhline(0.0, color="0.6", lw=0.5, zorder=0)
+        axes.set(xlabel="distance from the clamp [m]", ylabel=label(values), xmargin=0.0)
+        axes.legend(ncols=2)
+        fitting_units(axes)
+    return axes

@@ -176,7 +176,7 @@ def house_axes(ax: _Given | None, width: float, height: float, **layout: Any) ->
 
 
 _PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
-_PREFIXED = "m", "s", "rad/s", "m/s", "N", "N m", "J"  # units that take one
+_PREFIXED = "m", "s", "rad/s", "m/s", "N", "N m", "J", "Pa"  # units that take one
 
 
 def prefix_of(largest: float, least: float = 0.1) -> tuple[float, str]:

@@ -21,7 +21,8 @@ from analytic import (
     spin_up_response,
 )
 from rotbeam_exu import simulate
-from rotbeam_exu.runs.shape import outer_strain, shape_of, vibration_of
+from rotbeam_exu.figures import strain_along
+from rotbeam_exu.runs.shape import outer_strain, shape_of, strain_at, vibration_of
 from tests.beams import unit_beam
 
 TIMES = np.linspace(0.0, 4.0, 101)
@@ -237,6 +238,20 @@ def test_the_largest_strain_is_that_of_the_fiber_farthest_from_the_axis(beam, re
     bent = np.diff(np.asarray(angle)[:, [0, 2]], axis=1)[:, 0] / 0.02
     curvature = near["curvature"].sel(section_axis="thickness").isel(station=1)
     np.testing.assert_allclose(curvature, bent, atol=2e-2 * np.abs(bent).max())
+
+
+def test_stress_is_drawn_along_the_span(along):
+    """The band of each point, in MPa."""
+    found = strain_at(shape_of(along), [(0.018, 0.0), (-0.018, 0.0)], 7e10)
+    axes = strain_along(found)
+    assert axes.get_ylabel() == "stress at the point [MPa]"
+    least, greatest = (np.asarray(line.get_ydata()) for line in axes.lines[:2])
+    np.testing.assert_allclose(least, found["stress"][..., 0].min("time"))
+    np.testing.assert_allclose(greatest, found["stress"][..., 0].max("time"))
+    (line,) = strain_along(found["strain"].isel(time=3, point=[1]).to_dataset()).lines[:1]
+    np.testing.assert_allclose(line.get_ydata(), found["strain"][3, :, 1])
+    with pytest.raises(ValueError, match="draws what runs.shape.strain_at returns"):
+        strain_along(shape_of(along))
 
 
 def test_a_mode_vibrates_about_the_steady_state():
