@@ -36,9 +36,9 @@ class Sections:
 class Mesh:
     """Elements on a beam or blade, with nodes where its section or line has a station.
 
-    Between stations and point masses elements are of equal length, as many on each stretch as make
-    the longest of all the shortest. Where they are fewer than the stretches only masses have nodes,
-    and of stations closer than a thousandth of the length one.
+    Between stations, point masses and kinks elements are of equal length, as many on each stretch
+    as make the longest of all the shortest. Where they are fewer than the stretches only masses and
+    kinks have nodes, and of stations closer than a thousandth of the length one.
 
     Exudyn's elements have a constant section: the mean of its mass and EI, of its compliance 1/EA
     and, across a station, of 1/EI. Of a blade that tapers they converge to second order, whatever
@@ -54,29 +54,31 @@ class Mesh:
     @cached_property
     def stations(self) -> FloatArray:
         """Places from 0 to 1 where section or line bend or step, and of masses; with both ends."""
-        return apart([*self._kinks, *self._masses])
+        return apart([*self._bends, *self._places])
 
     @property
-    def _kinks(self) -> list[float]:
+    def _bends(self) -> list[float]:
         blade = self.blade
         line = blade.line.in_units(blade.length)
         profiles = (*blade.unit.profiles, line.twist, line.prebend, line.sweep)
         return [x for profile in profiles for x in stations(profile)]
 
     @property
-    def _masses(self) -> list[float]:
-        return [position for position, _, _ in self.blade.unit.masses]
+    def _places(self) -> list[float]:
+        """Places where a node must be: of masses, and of kinks of the line."""
+        kinks = [place / self.blade.length for place, *_ in self.blade.line.kinks]
+        return [*(position for position, _, _ in self.blade.unit.masses), *kinks]
 
     @cached_property
     def ends(self) -> FloatArray:
         """Ends of the elements over the length, (elements + 1,)."""
         # Much shorter elements would cost the solver its digits.
-        stretches = apart([*apart(self._kinks, _SHORT), *self._masses])
+        stretches = apart([*apart(self._bends, _SHORT), *self._places])
         if self.elements < stretches.size - 1:
-            stretches = apart(self._masses)
+            stretches = apart(self._places)
         if (least := stretches.size - 1) > self.elements:
             raise ValueError(
-                f"{self.elements} elements have no nodes at all point masses of this blade: take "
+                f"{self.elements} elements have no nodes at all point masses and kinks of this blade: take "
                 f"{least} or more"
             )
         lengths, counts = np.diff(stretches), np.ones(stretches.size - 1, dtype=int)

@@ -223,7 +223,7 @@ class Formulation(Described, abstract=True):
         require_blade(blade)
         table = blade.table
         remedy = "element='space_exact', on the command line --element space_exact"
-        if blade.line.kinks or blade.point_masses:
+        if blade.point_masses:
             remedy = "analytic.spin_up_response, or on the command line rotbeam reference"
         if table:
             raise ValueError(

@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic import Blade
 from analytic.arrays import FloatArray
-from analytic.exact.continuum.unit import space_unit
+from analytic.exact.continuum.unit import SpaceUnit, space_unit
 from analytic.lazily import spatial
 from analytic.motion import Rotation
 from analytic.quadrature import gauss_points
@@ -35,9 +35,11 @@ class SpaceExact(Sheared, FrameNodes):
     in the element; velocities and turning rates are linear. The nodes stand along the sections of
     the unloaded blade, at their centers of mass, to which stiffness and inertia are moved: a blade
     may have twist, precone, prebend, sweep, a setting angle, offsets of its centers, or a table of
-    stations. Exudyn's section couples no strains: what of the stiffness is off the diagonal is a
-    force of our own, called from Exudyn. Sections have their inertia and the propeller moment, but
-    not the trapeze effect. Damping is external only, for Exudyn ignores that of strains.
+    stations. It may have kinks; one about both axes of sections that bend more easily about one of
+    them leaves an error of first order. Exudyn's section couples no strains: what of the stiffness
+    is off the diagonal is a force of our own, called from Exudyn. Sections have their inertia and
+    the propeller moment, but not the trapeze effect. Damping is external only, for Exudyn ignores
+    that of strains.
 
     Parameters
     ----------
@@ -70,13 +72,8 @@ class SpaceExact(Sheared, FrameNodes):
         return 16, 32, 64, 128
 
     def require_section(self, blade: Blade) -> None:
-        """Refuse kinks of the line, and an unknown torsion."""
+        """Refuse point masses, and an unknown torsion."""
         require_bare(self, blade)
-        if blade.line.kinks:
-            raise ValueError(
-                "element 'space_exact' takes a smooth line, and the line of this blade has kinks: "
-                "take analytic.spin_up_response, or on the command line rotbeam reference"
-            )
         if blade.table:
             return
         out = blade.section.out_of_plane
@@ -177,6 +174,9 @@ _TURNS = [3, 4, 5, 6, 10, 11, 12, 13]
 _STEP = 1e-5
 """Step of central differences of Euler parameters, which are of the size of one."""
 
+_BESIDE = 1e-9
+"""Distance from a kink over the length, at which sections are those of one side."""
+
 _STEPS = _STEP * np.stack((np.eye(14)[_TURNS], -np.eye(14)[_TURNS]))
 
 
@@ -230,7 +230,7 @@ class _Row:
         self.inertia = blade.mass_per_length * L**2 * mesh.mean(about)
         self.arms = L * unit.inertia_about(mesh.ends, blade.slenderness)[0].T
         place, sections = unit.unloaded(mesh.ends)
-        sections = frame @ sections
+        sections = frame @ _halfway(unit, mesh.ends, sections)
         r = L * (unit.clamp + place) @ frame.T + (sections @ self.arms[..., None])[..., 0]
         p = spatial.transform.Rotation.from_matrix(sections).as_quat()[:, [3, 0, 1, 2]]
         self.reference = np.hstack((r, p))
@@ -341,6 +341,21 @@ class _Row:
         forces = np.zeros((*p.shape[:-1], 7))
         forces[..., 3:] = onto_parameters(p, local)
         return forces.reshape(*e.shape[:-1], 14)
+
+
+def _halfway(unit: SpaceUnit, ends: FloatArray, sections: FloatArray) -> FloatArray:
+    """Return the sections of nodes, at a kink halfway between both sides: errors there cancel."""
+    at = np.array([x for x, *_ in unit.line.kinks])
+    nodes = np.flatnonzero(np.isclose(ends, at[:, None], rtol=0.0, atol=_BESIDE).any(axis=0))
+    if not nodes.size:
+        return sections
+    before, after = (unit.unloaded(ends[nodes] + side)[1] for side in (-_BESIDE, _BESIDE))
+    turn = spatial.transform.Rotation.from_rotvec(
+        0.5 * _rotation_vector(np.swapaxes(before, -1, -2) @ after)
+    )
+    sections = sections.copy()
+    sections[nodes] = before @ turn.as_matrix()
+    return sections
 
 
 _VALUES = np.stack((1.0 - _INNER, _INNER), axis=1)
