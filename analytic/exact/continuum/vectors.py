@@ -99,7 +99,7 @@ class Frames:
                 ),
                 strict=True,
             )
-            self._together.append((which, np.array(points), np.array(places), np.array(onto)))
+            self._together.append((np.array(which), np.array(points), np.array(places), np.array(onto)))
 
     def of(self, curvature: FloatArray) -> FloatArray:
         """Return R at the points and the places, (3, 3, samples, points and places).
@@ -107,17 +107,19 @@ class Frames:
         From curvatures (3, samples, points) in the moving frame.
         """
         samples = curvature.shape[1]
-        turns = np.empty((4, self._stretches, samples))
-        begins = np.zeros_like(turns)
+        begins = np.zeros((4, self._stretches + 1, samples))
         begins[0, 0] = 1.0
         alone = []
         for which, points, _, onto in self._together:
             alone.append(_from_unit(np.swapaxes(curvature[:, :, points], 1, 2), onto))
-            turns[:, which] = alone[-1][..., -1]
-        for k in range(1, self._stretches):
-            begins[:, k] = product(begins[:, k - 1], turns[:, k - 1])
-            if k - 1 in self._kinks:
-                begins[:, k] = product(begins[:, k], self._kinks[k - 1])
+            begins[:, which + 1] = alone[-1][..., -1]
+        for k, turn in self._kinks.items():
+            begins[:, k + 1] = product(begins[:, k + 1], turn)
+        # Products of all before, of twice as many each time.
+        reach = 1
+        while reach <= self._stretches:
+            begins[:, reach:] = product(begins[:, :-reach], begins[:, reach:])
+            reach *= 2
         quaternions = np.empty((4, samples, self._count))
         for (which, _, places, _), local in zip(self._together, alone, strict=True):
             here = product(begins[:, which, :, None], local[..., :-1])
