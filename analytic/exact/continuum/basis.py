@@ -257,9 +257,13 @@ class StrainFunctions:
         # In memory the places come last, as in all fields.
         conjugate = (soft @ self.forces(x)).transpose(1, 2, 0).copy()
         strains = np.swapaxes(conjugate, 1, 2)
+        return self.on_line(x, soft, strains[:3], strains[3:])
+
+    def on_line(self, x: FloatArray, soft: FloatArray, gamma: FloatArray, K: FloatArray) -> Strains:
+        """Return such functions at `x`, where strains over forces are `soft`, and the line."""
         return Strains(
-            gamma=strains[:3],
-            K=strains[3:],
+            gamma=gamma,
+            K=K,
             initial=self.blade.bent(x),
             twist=slope_of(self.blade.line.twist, x) * (self.theory.trapeze is True),
             trapeze=trapeze_of(soft) if self.theory.trapeze else np.zeros_like(x),

@@ -136,10 +136,21 @@ class SpaceContinuum(SpaceKinematics):
         self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> FloatArray:
         """Return the forces on the strains of a table a motion causes, (points, 6, samples)."""
+        inner = self.on_strains(q, q_dot, q_ddot, by) / self.weights
+        return self.functions.elastic(self.points, np.moveaxis(inner, 2, 0))
+
+    def on_strains(
+        self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
+    ) -> FloatArray:
+        """Return the forces on the strains that a motion causes, with weights, (6, samples, points)."""
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, by)
-        inner = np.concatenate(self._on_strains(at, *self._forces(at, motion, by)[1:]))
-        return self.functions.elastic(self.points, np.moveaxis(inner / self.weights, 2, 0))
+        return np.concatenate(self._on_strains(at, *self._forces(at, motion, by)[1:]))
+
+    def shortening(self, q: FloatArray) -> FloatArray:
+        """Return by how much twist shortens the axis over k² of the trapeze effect."""
+        twist = self._strains(q)[1][0]
+        return np.asarray(0.5 * twist * (twist + 2.0 * self.strains.twist))
 
     def _on_strains(
         self, at: State, force: FloatArray, moment: FloatArray

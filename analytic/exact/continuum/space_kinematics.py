@@ -12,7 +12,7 @@ from .basis import StrainFunctions
 from .changes import Rates, State
 from .span import Span
 from .state import Driven
-from .vectors import Frames, cross, turned
+from .vectors import Frames, cross, turned, turned_back
 
 
 class SpaceKinematics:
@@ -107,6 +107,19 @@ class SpaceKinematics:
             turning, stretching, spin, spin_m, velocity_m, spin_rate, total, total_rate,
             turn, turn_rate, acceleration, twisting, speeding,
         )  # fmt: skip
+
+    def velocities(self, q: FloatArray, q_dot: FloatArray, by: Driven) -> list[FloatArray]:
+        """Return velocities and spins at the masses, (3, samples, masses) in the frame's axes.
+
+        Of the line and of its sections in space, of what has inertia against rotation, and of the
+        clamp.
+        """
+        at = self._state(q)
+        motion = self._motion(at, q_dot, np.zeros_like(q), by)
+        W, _, hub = self._clamp(by)
+        velocity = motion.velocity_m + cross(W, hub + at.place_m)
+        kinds = (velocity, motion.total_spin, motion.turn, W)
+        return [turned_back(at.frame_m, one) for one in kinds]
 
     def tip(self, q: FloatArray) -> FloatArray:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""

@@ -99,7 +99,9 @@ class Frames:
                 ),
                 strict=True,
             )
-            self._together.append((np.array(which), np.array(points), np.array(places), np.array(onto)))
+            self._together.append(
+                (np.array(which), np.array(points), np.array(places), np.array(onto))
+            )
 
     def of(self, curvature: FloatArray) -> FloatArray:
         """Return R at the points and the places, (3, 3, samples, points and places).

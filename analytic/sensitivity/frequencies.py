@@ -1,0 +1,245 @@
+"""Derivatives of frequencies to the numbers of a blade."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..blade import Blade
+from ..exact.continuum.space import SpaceContinuum
+from ..exact.continuum.state import Driven
+from ..exact.continuum.vectors import cross
+from ..exact.linear.families import LinearModes
+from ..exact.linear.modes import linear_modes
+from ..input_checks import shown
+from ..threads import one_thread
+from .frozen import Kernels, frozen
+from .parameters import Parameter, parameters_of
+
+_SWING = 5e-3  # of strains of energy one: of sums of squares the fourth power is left
+_PHASES = 8  # in a period: averages are exact up to the seventh harmonic
+_CHANGE = 3e-3  # of a parameter over its size: of the fourth power is left
+_AROUND = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+_AHEAD = np.array([0.0, 1.0, 2.0]), np.array([-1.5, 2.0, -0.5])
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """How results change with the numbers of a blade.
+
+    Attributes
+    ----------
+    results : tuple of str
+        Their names, as "flap 1".
+    values : ndarray (results,)
+        Frequencies [rad/s].
+    parameters : tuple of Parameter
+    derivatives : ndarray (results, parameters)
+        Of results to parameters, in their units.
+    """
+
+    results: tuple[str, ...]
+    values: FloatArray
+    parameters: tuple[Parameter, ...] = field(repr=False)
+    derivatives: FloatArray = field(repr=False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return tuple(one.name for one in self.parameters)
+
+    @property
+    def relative(self) -> FloatArray:
+        """Relative change of a result over that of a parameter, p/f ∂f/∂p, (results, parameters).
+
+        Zero where the parameter is zero.
+        """
+        now = np.array([one.value for one in self.parameters])
+        return self.derivatives * now / self.values[:, None]
+
+    def of(self, result: str, parameter: str) -> float:
+        """Return one derivative by names."""
+        for name, among in ((result, self.results), (parameter, self.names)):
+            if name not in among:
+                raise ValueError(f"there is no {shown(name)}: known are {', '.join(among)}")
+        row, column = self.results.index(result), self.names.index(parameter)
+        return float(self.derivatives[row, column])
+
+
+@one_thread
+def sensitivity(modes: LinearModes, parameters: Iterable[str] | None = None) -> Sensitivity:
+    """Return how the frequencies of modes change with the numbers of their blade.
+
+    By the modes' own tangent, with the steady state's change, at the same speed: no mode is computed
+    anew. In the plane of bending alone where the section out of it is unknown.
+
+    Parameters
+    ----------
+    modes : LinearModes
+        Of `linear_modes`; one that meets another at its frequency has no derivative.
+    parameters : iterable of str, optional
+        Names out of `parameters_of`; all, unless given.
+
+    Raises
+    ------
+    ValueError
+        If the blade has no parameter of a name.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Theory, linear_modes
+    >>> from analytic.sensitivity import sensitivity
+    >>> modes = linear_modes(Beam.reference(), omega=6.0, theory=Theory(extension=False))
+    >>> found = sensitivity(modes, ["EI3", "m"])
+    >>> print(found.relative.round(3))
+    [[ 1.088 -1.088]
+     [ 0.337 -0.337]
+     [ 0.419 -0.419]]
+    """
+    found = _Derivatives(modes)
+    known = parameters_of(found.blade, modes.theory)
+    names = list(known if parameters is None else parameters)
+    if not found.leaves_plane:
+        known = {name: one for name, one in known.items() if name != "EI2"}
+        names = [name for name in names if parameters is not None or name in known]
+    if unknown := [name for name in names if name not in known]:
+        raise ValueError(
+            f"the blade has no parameter {', '.join(map(shown, unknown))}; it has "
+            f"{', '.join(known)}"
+        )
+    several = [known[name] for name in names]
+    columns = [found.to(one) for one in several]
+    return Sensitivity(
+        results=modes.names,
+        values=modes.frequencies,
+        parameters=tuple(several),
+        derivatives=np.reshape(columns, (len(several), -1)).T,
+    )
+
+
+class _Derivatives:
+    """Derivatives of frequencies, from energies in states around the steady one."""
+
+    def __init__(self, modes: LinearModes) -> None:
+        self.leaves_plane = isinstance(modes.model, SpaceContinuum)
+        if not self.leaves_plane:
+            modes = _in_space(modes)
+        self.blade, self.model, steady = modes.blade, modes.model, modes.steady
+        self.by, self.still = Driven(steady.rate), steady.equilibrium
+        _, K, C, M = (part[0] for part in steady.linearized)
+        size = np.sqrt(np.einsum("kn,kn->k", modes.coordinates.conj(), modes.coordinates @ K).real)
+        self.shapes = modes.coordinates / size[:, None]
+        self.frequencies = modes.frequencies / self.blade.frequency_scale
+        # Of φ'Dφ with D = K + iΩC - Ω²M, whose zero is the frequency.
+        self.slopes = np.array([
+            (shape.conj() @ (1j * C - 2.0 * w * M) @ shape).real
+            for w, shape in zip(self.frequencies, self.shapes, strict=True)
+        ])  # fmt: skip
+        shifts = [np.linalg.solve(K, self._second_order(k)) for k in range(len(self.shapes))]
+        self.states = [self._around(k, shift, K) for k, shift in enumerate(shifts)]
+        self.squares = np.stack([
+            2.0 * np.outer(shape, shape.conj()).real
+            - np.outer(shift, self.still) - np.outer(self.still, shift)
+            for shape, shift in zip(self.shapes, shifts, strict=True)
+        ])  # fmt: skip
+        self.kernels = self._kernels()
+
+    def _swings(self, k: int, size: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return a mode's q, q̇ and q̈ about the steady state over a period."""
+        w, phases = self.frequencies[k], 2.0 * math.pi * np.arange(_PHASES) / _PHASES
+        moved = size * np.exp(1j * phases)[:, None] * self.shapes[k]
+        return self.still + moved.real, (1j * w * moved).real, (-(w**2) * moved).real
+
+    def _second_order(self, k: int) -> FloatArray:
+        """Return the mean force of a mode's swing, four times of its square: φ'(∂D/∂q)φ."""
+        none = np.zeros((1, self.still.size))
+        (at_rest,) = self.model.residual(self.still[None], none, none, self.by)
+        once, twice = (
+            4.0 * (self.model.residual(*self._swings(k, h), self.by).mean(axis=0) - at_rest) / h**2
+            for h in (_SWING, 2.0 * _SWING)
+        )
+        return np.asarray((4.0 * once - twice) / 3.0)
+
+    def _around(
+        self, k: int, shift: FloatArray, K: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Return states q, q̇, q̈ and their weights.
+
+        Sums of energies are φ'Dφ, and what the change of the steady state adds to it.
+        """
+        swings = [self._swings(k, h) for h in (_SWING, 2.0 * _SWING)]
+        length = math.sqrt(float(shift @ K @ shift)) or 1.0
+        along, of_slope = _AROUND
+        rest = self.still + np.outer(np.append(0.0, _SWING / length * along), shift)
+        none = np.zeros_like(rest)
+        each = 4.0 / (_PHASES * _SWING**2)
+        squares = np.repeat([4.0 / 3.0 * each, -each / 12.0], _PHASES)
+        weights = (squares, [-squares.sum()], -of_slope * length / _SWING)
+        states = zip(*swings, (rest, none, none), strict=True)
+        q, q_dot, q_ddot = map(np.concatenate, states)
+        return q, q_dot, q_ddot, np.concatenate(weights)
+
+    def _kernels(self) -> Kernels:
+        strains = self.model.strains
+        fields = np.concatenate((strains.gamma, strains.K))
+        sums: list[list[FloatArray]] = []
+        for q, q_dot, q_ddot, weights in self.states:
+            velocity, spin, turn, clamp = self.model.velocities(q, q_dot, self.by)
+            moved = np.concatenate((velocity, spin))
+            tension = self.model.on_strains(q, q_dot, q_ddot, self.by)[0]
+            sums.append([
+                *(
+                    np.einsum("s,isp,jsp->pij", weights, one, one, optimize=True)
+                    for one in (moved, turn, clamp)
+                ),
+                weights @ (tension * self.model.shortening(q)),
+            ])  # fmt: skip
+        return Kernels(
+            np.einsum("ipm,kmn,jpn->kpij", fields, self.squares, fields, optimize=True),
+            *(np.stack(kind) for kind in zip(*sums, strict=True)),
+        )
+
+    def _with(self, blade: Blade) -> FloatArray:
+        """Return φ'Dφ of all modes in a blade whose unloaded line is that of the solution's."""
+        return self.kernels.energies(frozen(self.model.functions, self.blade, blade))
+
+    def _with_moved(self, blade: Blade) -> FloatArray:
+        """Return the same in any blade."""
+        model = SpaceContinuum(frozen(self.model.functions, self.blade, blade))
+        masses, stiffness = model.masses, model.functions.stiffness
+        sums = []
+        for (q, q_dot, _, weights), squares in zip(self.states, self.squares, strict=True):
+            velocity, spin, turn, clamp = model.velocities(q, q_dot, self.by)
+            moved = velocity + cross(spin, masses.offset[:, None])
+            twice = np.sum(moved**2, axis=0) @ masses.mass
+            twice += np.einsum("isp,ijp,jsp->s", turn, masses.inertia, turn, optimize=True)
+            twice += np.einsum("isp,ijp,jsp->s", clamp, masses.carried, clamp, optimize=True)
+            sums.append(0.5 * np.sum(squares * stiffness) - 0.5 * weights @ twice)
+        return np.array(sums)
+
+    def to(self, parameter: Parameter) -> FloatArray:
+        """Return the derivatives of all frequencies [rad/s] to a parameter."""
+        change, energies = (
+            _CHANGE * parameter.size,
+            self._with_moved if parameter.moves else self._with,
+        )
+        one_sided = parameter.name == "hub_radius" and parameter.value < 2.0 * change
+        steps, weights = _AHEAD if one_sided else _AROUND
+        values = [energies(parameter.changed(parameter.value + change * step)) for step in steps]
+        slope = weights @ np.array(values) / change
+        return np.asarray(-self.blade.frequency_scale * slope / self.slopes)
+
+
+def _in_space(modes: LinearModes) -> LinearModes:
+    """Return the modes of a planar blade in space, of some stiffness out of the plane."""
+    blade = modes.blade.with_section_out_of_plane(1.0, math.inf)
+    several = linear_modes(blade, modes.omega, 2 * len(modes.names), theory=modes.theory)
+    places = [several.names.index(name) for name in modes.names]
+    return replace(
+        several, frequencies=several.frequencies[places], shares=several.shares[places],
+        coordinates=several.coordinates[places],
+    )  # fmt: skip

@@ -1,0 +1,128 @@
+"""Another blade whose strains are those of a solution: how its energies change with its numbers.
+
+A mode is a stationary point of the averaged Lagrangian (Whitham 1965), a steady state one of the
+amended potential. So their first change with a number of the blade is that of the energies alone,
+with the strains as they are; sums of velocities and strains along the blade, taken once, give it
+for every stiffness and mass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..blade import Blade
+from ..exact.continuum.basis import Masses, StrainFunctions, Strains
+from ..exact.continuum.unit import space_unit
+from ..exact.continuum.vectors import cross
+from ..quadrature import Grid
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FrozenFunctions(StrainFunctions):
+    """The strains of a solution's functions in another blade, in the units of the solution's."""
+
+    of: StrainFunctions
+    force: float  # the units of this blade's stiffness and mass over those of the solution's
+    inertia: float
+
+    @cached_property
+    def counts(self) -> tuple[int, int, int, int]:
+        """Functions in all, as of the solution."""
+        return self.of.counts
+
+    @cached_property
+    def grid(self) -> Grid:
+        """Points at which fields are evaluated, as of the solution."""
+        return self.of.grid
+
+    @cached_property
+    def strains(self) -> Strains:
+        """The solution's functions at the grid."""
+        return self.of.at(self.grid.points)
+
+    @cached_property
+    def stiff(self) -> FloatArray:
+        """Stiffness against strains in the frame without twist, with weights, (points, 6, 6)."""
+        soft = self.flexibility(self.grid.points)
+        kept = np.flatnonzero(soft[0].diagonal())
+        result = np.zeros_like(soft)
+        inner = np.ix_(range(len(soft)), kept, kept)
+        result[inner] = np.linalg.inv(soft[inner])
+        return np.asarray(self.force * self.grid.weights[:, None, None] * result)
+
+    @cached_property
+    def stiffness(self) -> FloatArray:  # type: ignore[override]
+        """The elastic energy is ½ q·K q, (n, n)."""
+        fields = np.concatenate((self.strains.gamma, self.strains.K))
+        return np.einsum("ipk,pij,jpl->kl", fields, self.stiff, fields, optimize=True)
+
+    @cached_property
+    def damping(self) -> FloatArray:
+        """None: energies are of free motion."""
+        return np.zeros((self.size, self.size))
+
+    def at(self, x: FloatArray) -> Strains:
+        """Return the solution's functions at the grid, on the unloaded line of this blade."""
+        return self.on_line(x, self.flexibility(x), self.strains.gamma, self.strains.K)
+
+    @cached_property
+    def masses(self) -> Masses:
+        """Masses of this blade in the units of the solution's."""
+        own = super().masses
+        return Masses(
+            places=own.places, mass=self.inertia * own.mass, offset=own.offset,
+            inertia=self.inertia * own.inertia, carried=self.inertia * own.carried,
+            whole=own.whole, drag=None,
+        )  # fmt: skip
+
+
+def frozen(functions: StrainFunctions, of: Blade, blade: Blade) -> FrozenFunctions:
+    """Return the functions of a solution, of the blade `of`, in another blade."""
+    return FrozenFunctions(
+        blade=space_unit(blade), theory=functions.theory, slenderness=blade.slenderness,
+        bending=functions.bending, torsion=functions.torsion, axial=functions.axial,
+        answers=functions.answers, of=functions,
+        force=blade.bending_stiffness / of.bending_stiffness,
+        inertia=blade.mass_per_length / of.mass_per_length,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Kernels:
+    """Sums over states of squares of strains and velocities along the blade.
+
+    Of every sum strains (sums, points, 6, 6), velocities of the line and spins in space
+    (sums, masses, 6, 6), and the spins against which sections (sums, masses, 3, 3) and the clamp
+    (masses, ...) have inertia: all in the frame without twist. `trapeze` (sums, points) is the work
+    of tension over k² by which twist shortens the axis.
+    """
+
+    strains: FloatArray
+    velocities: FloatArray
+    turns: FloatArray
+    carried: FloatArray
+    trapeze: FloatArray
+
+    def energies(self, functions: FrozenFunctions) -> FloatArray:
+        """Return the sums (sums,) of the elastic less the kinetic energy."""
+        masses = functions.masses
+        onto = np.zeros((masses.places.size, 3, 6))
+        onto[:, :, :3] = np.eye(3)
+        # ω × ρ = -ρ × ω
+        onto[:, :, 3:] = -np.moveaxis(_hat(masses.offset), -1, 0)
+        inert = masses.mass[:, None, None] * np.swapaxes(onto, 1, 2) @ onto
+        sums = np.einsum("kpij,pij->k", self.strains, functions.stiff)
+        sums -= np.einsum("kpij,pij->k", self.velocities, inert)
+        sums -= np.einsum("kpij,ijp->k", self.turns, masses.inertia)
+        sums -= np.einsum("kpij,ijp->k", self.carried, masses.carried)
+        return np.asarray(0.5 * sums + self.trapeze @ functions.at(functions.grid.points).trapeze)
+
+
+def _hat(vector: FloatArray) -> FloatArray:
+    """Return a × as matrices (3, 3, places) of vectors (3, places)."""
+    axes = np.eye(3)[:, :, None]
+    return np.stack([cross(vector, one) for one in np.moveaxis(axes, 1, 0)], axis=1)
