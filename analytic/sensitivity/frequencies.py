@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -59,7 +59,7 @@ class Sensitivity:
         Zero where the parameter is zero.
         """
         now = np.array([one.value for one in self.parameters])
-        return self.derivatives * now / self.values[:, None]
+        return np.asarray(self.derivatives * now / self.values[:, None])
 
     def of(self, result: str, parameter: str) -> float:
         """Return one derivative by names."""
@@ -74,7 +74,7 @@ class Sensitivity:
 def sensitivity(modes: LinearModes, parameters: Iterable[str] | None = None) -> Sensitivity:
     """Return how the frequencies of modes change with the numbers of their blade.
 
-    By the modes' own tangent, with the steady state's change, at the same speed: no mode is computed
+    By the modes' own tangent, with the steady state's change, at the same speed; no mode is solved
     anew. In the plane of bending alone where the section out of it is unknown.
 
     Parameters
@@ -100,8 +100,11 @@ def sensitivity(modes: LinearModes, parameters: Iterable[str] | None = None) -> 
      [ 0.337 -0.337]
      [ 0.419 -0.419]]
     """
+    require_modes(modes)
+    if isinstance(parameters, str):
+        raise TypeError(f"parameters must be names, as [{parameters!r}], got {parameters!r}")
     found = _Derivatives(modes)
-    known = parameters_of(found.blade, modes.theory)
+    known = found.parameters
     names = list(known if parameters is None else parameters)
     if not found.leaves_plane:
         known = {name: one for name, one in known.items() if name != "EI2"}
@@ -117,8 +120,14 @@ def sensitivity(modes: LinearModes, parameters: Iterable[str] | None = None) -> 
         results=modes.names,
         values=modes.frequencies,
         parameters=tuple(several),
-        derivatives=np.reshape(columns, (len(several), -1)).T,
+        derivatives=np.reshape(columns, (len(several), len(modes.names))).T,
     )
+
+
+def require_modes(modes: object) -> None:
+    """Refuse all but `LinearModes`."""
+    if not isinstance(modes, LinearModes):
+        raise TypeError(f"modes must be what linear_modes returns, got {shown(modes)}")
 
 
 class _Derivatives:
@@ -128,7 +137,8 @@ class _Derivatives:
         self.leaves_plane = isinstance(modes.model, SpaceContinuum)
         if not self.leaves_plane:
             modes = _in_space(modes)
-        self.blade, self.model, steady = modes.blade, modes.model, modes.steady
+        self.blade, steady = modes.blade, modes.steady
+        self.model: SpaceContinuum = steady.model
         self.by, self.still = Driven(steady.rate), steady.equilibrium
         _, K, C, M = (part[0] for part in steady.linearized)
         size = np.sqrt(np.einsum("kn,kn->k", modes.coordinates.conj(), modes.coordinates @ K).real)
@@ -147,6 +157,8 @@ class _Derivatives:
             for shape, shift in zip(self.shapes, shifts, strict=True)
         ])  # fmt: skip
         self.kernels = self._kernels()
+        self.parameters = parameters_of(self.blade, modes.theory)
+        self._known, self._at = dict[str, FloatArray](), dict[str, FloatArray]()
 
     def _swings(self, k: int, size: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return a mode's q, q̇ and q̈ about the steady state over a period."""
@@ -190,13 +202,16 @@ class _Derivatives:
         for q, q_dot, q_ddot, weights in self.states:
             velocity, spin, turn, clamp = self.model.velocities(q, q_dot, self.by)
             moved = np.concatenate((velocity, spin))
-            tension = self.model.on_strains(q, q_dot, q_ddot, self.by)[0]
+            force = self.model.on_strains(q, q_dot, q_ddot, self.by)[:3]
+            strained = np.einsum("ipn,sn->isp", fields, q)
             sums.append([
                 *(
                     np.einsum("s,isp,jsp->pij", weights, one, one, optimize=True)
                     for one in (moved, turn, clamp)
                 ),
-                weights @ (tension * self.model.shortening(q)),
+                weights @ (force[0] * self.model.shortening(q)),
+                weights @ (force[0] * strains.trapeze * strained[3]),
+                np.einsum("s,isp,jsp->pij", weights, force, strained, optimize=True),
             ])  # fmt: skip
         return Kernels(
             np.einsum("ipm,kmn,jpn->kpij", fields, self.squares, fields, optimize=True),
@@ -204,8 +219,12 @@ class _Derivatives:
         )
 
     def _with(self, blade: Blade) -> FloatArray:
-        """Return φ'Dφ of all modes in a blade whose unloaded line is that of the solution's."""
-        return self.kernels.energies(frozen(self.model.functions, self.blade, blade))
+        """Return the parts of φ'Dφ of all modes, (modes, points and masses), in another blade.
+
+        Of one whose unloaded line is that of the solution's.
+        """
+        functions = frozen(self.model.functions, self.blade, blade)
+        return np.concatenate(self.kernels.energies(functions), axis=1)
 
     def _with_moved(self, blade: Blade) -> FloatArray:
         """Return the same in any blade."""
@@ -221,16 +240,53 @@ class _Derivatives:
             sums.append(0.5 * np.sum(squares * stiffness) - 0.5 * weights @ twice)
         return np.array(sums)
 
-    def to(self, parameter: Parameter) -> FloatArray:
-        """Return the derivatives of all frequencies [rad/s] to a parameter."""
-        change, energies = (
-            _CHANGE * parameter.size,
-            self._with_moved if parameter.moves else self._with,
-        )
+    def _change(self, parameter: Parameter, energies: Callable[[Blade], FloatArray]) -> FloatArray:
+        """Return the derivative of energies to a parameter."""
+        change = _CHANGE * parameter.size
         one_sided = parameter.name == "hub_radius" and parameter.value < 2.0 * change
         steps, weights = _AHEAD if one_sided else _AROUND
         values = [energies(parameter.changed(parameter.value + change * step)) for step in steps]
-        slope = weights @ np.array(values) / change
+        return np.asarray(np.tensordot(weights, values, 1) / change)
+
+    def _parts(self, parameter: Parameter) -> FloatArray:
+        """Return the same of all parts along the blade, (modes, parts), kept for stations."""
+        if parameter.name not in self._known:
+            self._known[parameter.name] = self._change(parameter, self._with)
+        return self._known[parameter.name]
+
+    def _at_stations(self, family: str) -> FloatArray:
+        """Return the derivatives to a family of numbers at all stations, (modes, stations).
+
+        A section has those of the stations beside it, between which they are linear.
+        """
+        table = self.blade.table
+        assert table is not None
+        x, grid = np.array(table.x) / self.blade.length, self.model.points
+        places = np.concatenate((grid, self.model.masses.places))
+        share = np.array([np.interp(places, x, one) for one in np.eye(x.size)])
+        whole = self.parameters[family]
+        if whole.value:  # a factor, of what is between stations
+            at = [self.parameters[f"{family}[{k}]"].value for k in range(x.size)]
+            share /= np.interp(places, x, at)
+        slopes = self._parts(whole) @ share.T
+        if family == "setting_angle":
+            steps = np.diff(np.eye(x.size), axis=1) / np.diff(x)
+            cell = np.clip(np.searchsorted(x, grid, side="right") - 1, 0, x.size - 2)
+            slopes += self.kernels.twisted @ steps[:, cell].T
+        return np.asarray(slopes)
+
+    def to(self, parameter: Parameter) -> FloatArray:
+        """Return the derivatives of all frequencies [rad/s] to a parameter."""
+        table = self.blade.table
+        if parameter.moves:
+            slope = self._change(parameter, self._with_moved)
+        elif parameter.family and table and table.interpolation == "components":
+            family = parameter.family
+            if family not in self._at:
+                self._at[family] = self._at_stations(family)
+            slope = self._at[family][:, parameter.station]
+        else:
+            slope = self._parts(parameter).sum(axis=1)
         return np.asarray(-self.blade.frequency_scale * slope / self.slopes)
 
 

@@ -8,7 +8,7 @@ for every stiffness and mass.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,9 +16,10 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.basis import Masses, StrainFunctions, Strains
-from ..exact.continuum.unit import space_unit
+from ..exact.continuum.unit import space_unit, trapeze_of
 from ..exact.continuum.vectors import cross
 from ..quadrature import Grid
+from ..station_section import about_centers
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -40,25 +41,54 @@ class FrozenFunctions(StrainFunctions):
         return self.of.grid
 
     @cached_property
+    def kept(self) -> FloatArray:
+        """Strains of this blade over the solution's, (points, 6, 6).
+
+        The curvatures are the same. What a theory keeps rigid at a center stays rigid there.
+        """
+        x = self.grid.points
+        soft = self.blade.flexibility(x, self.theory, self.slenderness)
+        soft = soft + np.eye(6) * (soft.diagonal(axis1=1, axis2=2) == 0.0)[:, None]
+        onto, _ = about_centers(np.linalg.inv(soft))
+        rigid = [*[0] * (not self.theory.extension), *[1, 2] * (self.theory.shear is None)]
+        result = np.tile(np.eye(6), (x.size, 1, 1))
+        result[:, rigid, :3], result[:, rigid, 3:] = 0.0, -onto[:, rigid, 3:]
+        turned = self._sections(x)
+        return turned @ result @ np.swapaxes(turned, 1, 2)
+
+    @cached_property
     def strains(self) -> Strains:
-        """The solution's functions at the grid."""
-        return self.of.at(self.grid.points)
+        """The solution's functions at the grid, with what stays rigid."""
+        of = self.of.at(self.grid.points)
+        fields = np.einsum("pij,jpn->ipn", self.kept, np.concatenate((of.gamma, of.K)))
+        return replace(of, gamma=fields[:3], K=fields[3:])
+
+    @cached_property
+    def soft(self) -> FloatArray:
+        """Strains over forces at the grid, in this blade's units, (points, 6, 6)."""
+        return self.flexibility(self.grid.points)
+
+    @property
+    def trapeze(self) -> FloatArray:
+        """k² of the trapeze effect at the grid, (points,)."""
+        return trapeze_of(self.soft) if self.theory.trapeze else np.zeros(len(self.soft))
 
     @cached_property
     def stiff(self) -> FloatArray:
         """Stiffness against strains in the frame without twist, with weights, (points, 6, 6)."""
-        soft = self.flexibility(self.grid.points)
+        soft = self.soft
         kept = np.flatnonzero(soft[0].diagonal())
         result = np.zeros_like(soft)
-        inner = np.ix_(range(len(soft)), kept, kept)
+        inner = np.ix_(np.arange(len(soft)), kept, kept)
         result[inner] = np.linalg.inv(soft[inner])
         return np.asarray(self.force * self.grid.weights[:, None, None] * result)
 
     @cached_property
-    def stiffness(self) -> FloatArray:  # type: ignore[override]
+    def stiffness(self) -> FloatArray:
         """The elastic energy is ½ q·K q, (n, n)."""
         fields = np.concatenate((self.strains.gamma, self.strains.K))
-        return np.einsum("ipk,pij,jpl->kl", fields, self.stiff, fields, optimize=True)
+        parts = np.einsum("ipk,pij,jpl->kl", fields, self.stiff, fields, optimize=True)
+        return np.asarray(parts)
 
     @cached_property
     def damping(self) -> FloatArray:
@@ -67,7 +97,7 @@ class FrozenFunctions(StrainFunctions):
 
     def at(self, x: FloatArray) -> Strains:
         """Return the solution's functions at the grid, on the unloaded line of this blade."""
-        return self.on_line(x, self.flexibility(x), self.strains.gamma, self.strains.K)
+        return self.on_line(x, self.soft, self.strains.gamma, self.strains.K)
 
     @cached_property
     def masses(self) -> Masses:
@@ -96,9 +126,10 @@ class Kernels:
     """Sums over states of squares of strains and velocities along the blade.
 
     Of every sum strains (sums, points, 6, 6), velocities of the line and spins in space
-    (sums, masses, 6, 6), and the spins against which sections (sums, masses, 3, 3) and the clamp
-    (masses, ...) have inertia: all in the frame without twist. `trapeze` (sums, points) is the work
-    of tension over k² by which twist shortens the axis.
+    (sums, masses, 6, 6), and the spins against which sections and the clamp have inertia
+    (sums, masses, 3, 3): all in the frame without twist. `trapeze` (sums, points) is the work of
+    tension over k² by which twist shortens the axis, `twisted` its change with the twist κ01;
+    `forced` (sums, points, 3, 6) are forces times strains.
     """
 
     strains: FloatArray
@@ -106,20 +137,29 @@ class Kernels:
     turns: FloatArray
     carried: FloatArray
     trapeze: FloatArray
+    twisted: FloatArray
+    forced: FloatArray
 
-    def energies(self, functions: FrozenFunctions) -> FloatArray:
-        """Return the sums (sums,) of the elastic less the kinetic energy."""
+    def energies(self, functions: FrozenFunctions) -> tuple[FloatArray, FloatArray]:
+        """Return elastic less kinetic energy, of the points of the grid and of the masses.
+
+        Each (sums, ...); their sum is that of the blade.
+        """
         masses = functions.masses
         onto = np.zeros((masses.places.size, 3, 6))
         onto[:, :, :3] = np.eye(3)
         # ω × ρ = -ρ × ω
         onto[:, :, 3:] = -np.moveaxis(_hat(masses.offset), -1, 0)
         inert = masses.mass[:, None, None] * np.swapaxes(onto, 1, 2) @ onto
-        sums = np.einsum("kpij,pij->k", self.strains, functions.stiff)
-        sums -= np.einsum("kpij,pij->k", self.velocities, inert)
-        sums -= np.einsum("kpij,ijp->k", self.turns, masses.inertia)
-        sums -= np.einsum("kpij,ijp->k", self.carried, masses.carried)
-        return np.asarray(0.5 * sums + self.trapeze @ functions.at(functions.grid.points).trapeze)
+        kinetic = np.einsum("kpij,pij->kp", self.velocities, inert)
+        kinetic += np.einsum("kpij,ijp->kp", self.turns, masses.inertia)
+        kinetic += np.einsum("kpij,ijp->kp", self.carried, masses.carried)
+        kept = functions.kept
+        stiff = np.swapaxes(kept, 1, 2) @ functions.stiff @ kept
+        elastic = np.einsum("kpij,pij->kp", self.strains, stiff)
+        elastic -= 2.0 * np.einsum("kpij,pij->kp", self.forced, kept[:, :3])
+        shortened = self.trapeze * functions.trapeze
+        return 0.5 * elastic + shortened, -0.5 * kinetic
 
 
 def _hat(vector: FloatArray) -> FloatArray:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray, in_units
 from ..blade import Blade
-from ..section import Section
 from ..station_section import MASSES, STIFFNESSES, about_centers, nested
 from ..theory import Theory
 
@@ -38,14 +38,20 @@ class Parameter:
         From another value to the blade that has it.
     moves : bool
         Whether it moves the unloaded blade, or its clamp.
+    family : str
+        At a station: the parameter that changes the same at all stations, as "EI3".
+    station : int
+        k of a station.
     """
 
     name: str
     value: float
     unit: str
     size: float
-    changed: Callable[[float], Blade]
+    changed: Callable[[float], Blade] = field(repr=False)
     moves: bool = False
+    family: str = ""
+    station: int = 0
 
 
 def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
@@ -53,8 +59,9 @@ def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
 
     EA, EI3 (in the plane of bending at the setting angle zero), EI2, GJ, m and j, the rotary
     inertia, are factors for all the blade; `hub_radius`, `setting_angle` and `precone`;
-    `point_mass[k]`. Of a table at each station all stiffnesses and masses about their centers, the
-    twist, and (c2, c3) of the centers of tension and mass as `tension2[k]` and so on.
+    `point_mass[k]`. Of a table all stiffnesses and masses about their centers, and by `tension2`,
+    `center3` and so on a shift of the centers of tension and mass along axis 2 or 3; each of these
+    and the twist at every station, as `EI3[4]`.
 
     Examples
     --------
@@ -87,9 +94,8 @@ def _factor(name: str, changed: Callable[[float], Blade]) -> Parameter:
 
 
 def _scaled(blade: Blade, key: str, factor: float) -> Blade:
-    section: Section = replace(
-        blade.section, **{key: in_units(getattr(blade.section, key), 1.0, 1.0 / factor)}
-    )
+    change: dict[str, Any] = {key: in_units(getattr(blade.section, key), 1.0, 1.0 / factor)}
+    section = replace(blade.section, **change)
     if key == "bending_stiffness" and (out := section.out_of_plane) is not None:
         # The same stiffness out of the plane, over another one in it.
         torsion = None if out.torsion_ratio is None else out.torsion_ratio / factor
@@ -100,8 +106,9 @@ def _scaled(blade: Blade, key: str, factor: float) -> Blade:
 
 def _other_ratio(blade: Blade, key: str, factor: float) -> Blade:
     out = blade.section.out_of_plane
-    out = replace(out, **{key: factor * getattr(out, key)})
-    return blade.with_section(replace(blade.section, out_of_plane=out))
+    assert out is not None
+    ratio = {key: factor * getattr(out, key)}
+    return blade.with_section(replace(blade.section, out_of_plane=replace(out, **ratio)))
 
 
 def _of_line(blade: Blade) -> Iterator[Parameter]:
@@ -125,70 +132,80 @@ def _other_mass(blade: Blade, k: int, mass: float) -> Blade:
 def _of_table(blade: Blade, theory: Theory) -> Iterator[Parameter]:
     table = blade.table
     assert table is not None
-    every, count = slice(None), len(table.x)
-    sheared = theory.shear is not None
-    stiffnesses = [n for n in STIFFNESSES if sheared or not n.startswith("GA")]
-    for name in stiffnesses:
-        yield _factor(name, partial(_entry, blade, 0, name, every, None))
-    yield _factor("m", partial(_entry, blade, 1, "m", every, None))
+    stations: list[Parameter] = []
+    entries = [(0, n) for n in STIFFNESSES if theory.shear is not None or not n.startswith("GA")]
+    (S_onto, S), (M_onto, M) = (about_centers(np.array(of)) for of in (table.stiffness, table.mass))
+    for which, name in (*entries, *((1, n) for n in MASSES)):
+        diagonals = np.einsum("sii->si", (S, M)[which])
+        values = diagonals[:, _places(which, name)[0]].tolist()
+        if all(values):
+            yield _factor(name, partial(_entry, blade, which, name, slice(None)))
+            stations += [
+                Parameter(
+                    f"{name}[{k}]", value, _UNITS[name], value,
+                    partial(_other_entry, blade, which, name, k, value), family=name, station=k,
+                )
+                for k, value in enumerate(values)
+            ]  # fmt: skip
+    for which, name, onto in ((0, "tension", S_onto), (1, "center", M_onto)):
+        for axis in (2, 3):
+            places = onto[:, 0, 5] * -1.0 if axis == 2 else onto[:, 0, 4]
+            family, size = f"{name}{axis}", _SMALL * blade.length
+            shifted = partial(_center, blade, which, axis, slice(None), places)
+            yield Parameter(family, 0.0, "m", size, shifted)
+            stations += [
+                Parameter(
+                    f"{family}[{k}]", value, "m", size,
+                    partial(_center, blade, which, axis, k, np.zeros(1)), family=family, station=k,
+                )
+                for k, value in enumerate(places.tolist())
+            ]  # fmt: skip
     yield from _of_line(blade)
-    S, M = (about_centers(np.array(kind)) for kind in (table.stiffness, table.mass))
-    for name in stiffnesses:
-        values = S[1][:, *2 * [STIFFNESSES.index(name)]]
-        yield from _at_stations(blade, 0, name, values)
-    for name in MASSES:
-        values = M[1][:, *2 * [(0, 3, 4, 5)[MASSES.index(name)]]]
-        yield from _at_stations(blade, 1, name, values)
-    for which, name, onto in ((0, "tension", S[0]), (1, "center", M[0])):
-        for axis, sign, column in ((2, -1.0, 5), (3, 1.0, 4)):
-            for k in range(count):
-                yield Parameter(
-                    f"{name}{axis}[{k}]", sign * float(onto[k, 0, column]), "m",
-                    _SMALL * blade.length, partial(_center, blade, which, axis, k),
-                )  # fmt: skip
-    twist = np.array(blade.line.twist if isinstance(blade.line.twist, tuple) else [])
-    if twist.shape == (count, 2):
-        for k in range(count):
+    yield from stations
+    twist: Any = blade.line.twist
+    if np.shape(twist) == (len(table.x), 2):
+        bent = bool(blade.line.prebend or blade.line.sweep or blade.line.kinks)
+        for k, (_, angle) in enumerate(twist):
             yield Parameter(
-                f"twist[{k}]", float(twist[k, 1]), "rad", _TURN, partial(_twisted, blade, k),
-                moves=True,
+                f"twist[{k}]", angle, "rad", _TURN, partial(_twisted, blade, k), moves=bent,
+                family="setting_angle", station=k,
             )  # fmt: skip
 
 
-def _at_stations(blade: Blade, which: int, name: str, values: FloatArray) -> Iterator[Parameter]:
-    for k, value in enumerate(values.tolist()):
-        if value > 0.0:
-            changed = partial(_entry, blade, which, name, k, value)
-            yield Parameter(f"{name}[{k}]", value, _UNITS[name], value, changed)
-
-
-def _entry(
-    blade: Blade, which: int, name: str, at: int | slice, now: float | None, value: float
-) -> Blade:
-    """Return the blade with another entry of its matrices about their centers, or a multiple."""
-    factor = value if now is None else value / now
+def _places(which: int, name: str) -> list[int]:
+    """Return the entries of a matrix about its centers; the mass is there for each direction."""
     if which == 0:
-        places = [STIFFNESSES.index(name)]
-    else:
-        # The mass is there for each direction; inertias about the center stay.
-        places = [0, 1, 2] if name == "m" else [2 + MASSES.index(name)]
+        return [STIFFNESSES.index(name)]
+    return [0, 1, 2] if name == "m" else [2 + MASSES.index(name)]
+
+
+def _entry(blade: Blade, which: int, name: str, at: int | slice, factor: float) -> Blade:
+    """Return the blade with a multiple of an entry of its matrices about their centers."""
 
     def edit(onto: FloatArray, about: FloatArray) -> None:
         del onto
         scale = np.ones(6)
-        scale[places] = factor
-        diagonal = about[at] * np.eye(6)
-        about[at] += diagonal * (scale - 1.0)
+        scale[_places(which, name)] = factor
+        about[at] += about[at] * np.eye(6) * (scale - 1.0)
 
     return _edited(blade, which, edit)
 
 
-def _center(blade: Blade, which: int, axis: int, k: int, place: float) -> Blade:
+def _other_entry(blade: Blade, which: int, name: str, k: int, now: float, value: float) -> Blade:
+    return _entry(blade, which, name, k, value / now)
+
+
+def _center(
+    blade: Blade, which: int, axis: int, at: int | slice, before: FloatArray, place: float
+) -> Blade:
+    """Return the blade with a center elsewhere, `before` and `place` together."""
+
     def edit(onto: FloatArray, about: FloatArray) -> None:
         del about
-        onto[k, 0, 5 if axis == 2 else 4] = -place if axis == 2 else place
+        c = before + place if isinstance(at, slice) else place
+        onto[at, 0, 5 if axis == 2 else 4] = -c if axis == 2 else c
         if which == 1:
-            onto[k, 2 if axis == 2 else 1, 3] = place if axis == 2 else -place
+            onto[at, 2 if axis == 2 else 1, 3] = c if axis == 2 else -c
 
     return _edited(blade, which, edit)
 
@@ -204,6 +221,7 @@ def _edited(blade: Blade, which: int, edit: Callable[[FloatArray, FloatArray], N
 
 
 def _twisted(blade: Blade, k: int, angle: float) -> Blade:
-    twist = list(blade.line.twist)  # type: ignore[arg-type]
+    profile: Any = blade.line.twist
+    twist = list(profile)
     twist[k] = (twist[k][0], angle)
     return blade.with_twist(tuple(twist))

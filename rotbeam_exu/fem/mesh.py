@@ -78,8 +78,8 @@ class Mesh:
             stretches = apart(self._places)
         if (least := stretches.size - 1) > self.elements:
             raise ValueError(
-                f"{self.elements} elements have no nodes at all point masses and kinks of this blade: take "
-                f"{least} or more"
+                f"{self.elements} elements have no nodes at all point masses and kinks of this "
+                f"blade: take {least} or more"
             )
         lengths, counts = np.diff(stretches), np.ones(stretches.size - 1, dtype=int)
         for _ in range(self.elements - counts.size):

@@ -26,7 +26,7 @@ LAYERS = {
         {"blade", "meshed_section", "section_shapes"},
         {"beam", "blade_checks"},
         {"reduced", "exact"},  # neither knows the other
-        {"spin_up"},
+        {"spin_up", "sensitivity"},
     ],
     "rotbeam_exu": [
         {"lazily"}, {"labels", "paper"}, {"runs"}, {"files"}, {"result_columns"}, {"datasets"},

@@ -260,7 +260,7 @@ class StrainFunctions:
         return self.on_line(x, soft, strains[:3], strains[3:])
 
     def on_line(self, x: FloatArray, soft: FloatArray, gamma: FloatArray, K: FloatArray) -> Strains:
-        """Return such functions at `x`, where strains over forces are `soft`, and the line."""
+        """Return functions at `x`, where strains over forces are `soft`, with the line there."""
         return Strains(
             gamma=gamma,
             K=K,

@@ -142,7 +142,7 @@ class SpaceContinuum(SpaceKinematics):
     def on_strains(
         self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven
     ) -> FloatArray:
-        """Return the forces on the strains that a motion causes, with weights, (6, samples, points)."""
+        """Return forces on the strains that a motion causes, (6, samples, points), with weights."""
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, by)
         return np.concatenate(self._on_strains(at, *self._forces(at, motion, by)[1:]))
