@@ -21,6 +21,7 @@ from analytic.exact.linear.families import FAMILIES, LinearModes
 from analytic.exact.linear.steady_state import SteadyState
 from analytic.exact.stability.growth import GrowthOutOfPlane
 from analytic.reduced.tables import PaperTable
+from analytic.sensitivity import Sensitivity
 from analytic.spin_up.quiet import QuietRamps
 from analytic.theory import Theory
 
@@ -115,6 +116,20 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
             ),
         },
         ("omega", "mode", "omega_n", "holds_up_to", "error"),
+    ),
+    Sensitivity: (
+        {
+            "mode": ("mode", "mode", lambda result: [*result.modes.names]),
+            "parameter": ("parameter", "parameter", lambda result: [*result.names]),
+            "frequency": _named("modes.frequencies", "mode", "natural frequency [rad/s]"),
+            "value": _each("parameter", "value", "value, in its unit"),
+            "unit": _each("parameter", "unit", "unit of the parameter", str),
+            "derivative": _named(
+                "derivatives", ("mode", "parameter"), "change of ω over that of the parameter"
+            ),
+            "relative": _named("relative", ("mode", "parameter"), "the same of relative changes"),
+        },
+        ("omega",),
     ),
     LinearModes: (
         {"mode": _NAMES} | _FREQUENCY | {

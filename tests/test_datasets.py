@@ -11,6 +11,7 @@ import analytic
 import rotbeam_exu
 from analytic import Beam, Blade, Damping, Rectangle, Section, SpinUp, Theory, TipForce
 from analytic.exact.free.stability_limit import StabilityLimit, Tongue
+from analytic.sensitivity import sensitivity
 from rotbeam_exu import dataset_of, load, save, steady_oscillation
 from rotbeam_exu.datasets import _described, frames_of
 
@@ -60,6 +61,7 @@ MADE = {
     ),
     "BackboneCurve": lambda: analytic.backbone_curve(BEAM, 6.0, up_to=0.1),
     "LinearModes": lambda: analytic.linear_modes(BEAM, 6.0),
+    "Sensitivity": lambda: sensitivity(analytic.linear_modes(BEAM, 6.0)),
     "SteadyState": lambda: analytic.steady_state(TWISTED, 1.0),
     "StateSpace": lambda: analytic.state_space(TWISTED, 1.0, [TipForce(amplitude=1.0)], modes=2),
     "LinearResponse": lambda: analytic.linear_response(BEAM, MOTION, TIMES),

@@ -16,6 +16,7 @@ from ..exact.continuum.vectors import cross
 from ..exact.linear.families import LinearModes
 from ..exact.linear.modes import linear_modes
 from ..input_checks import shown
+from ..theory import Theory
 from ..threads import one_thread
 from .frozen import Kernels, frozen
 from .parameters import Parameter, parameters_of
@@ -29,23 +30,34 @@ _AHEAD = np.array([0.0, 1.0, 2.0]), np.array([-1.5, 2.0, -0.5])
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """How results change with the numbers of a blade.
+    """How frequencies change with the numbers of a blade.
 
     Attributes
     ----------
-    results : tuple of str
-        Their names, as "flap 1".
-    values : ndarray (results,)
-        Frequencies [rad/s].
+    modes : LinearModes
     parameters : tuple of Parameter
-    derivatives : ndarray (results, parameters)
-        Of results to parameters, in their units.
+    derivatives : ndarray (modes, parameters)
+        Of the frequencies [rad/s] to the parameters, in their units.
     """
 
-    results: tuple[str, ...]
-    values: FloatArray
+    modes: LinearModes
     parameters: tuple[Parameter, ...] = field(repr=False)
     derivatives: FloatArray = field(repr=False)
+
+    @property
+    def blade(self) -> Blade:
+        """The modes' blade."""
+        return self.modes.blade
+
+    @property
+    def omega(self) -> float:
+        """Their rotation speed [rad/s]."""
+        return self.modes.omega
+
+    @property
+    def theory(self) -> Theory:
+        """Their theory."""
+        return self.modes.theory
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -54,19 +66,19 @@ class Sensitivity:
 
     @property
     def relative(self) -> FloatArray:
-        """Relative change of a result over that of a parameter, p/f ∂f/∂p, (results, parameters).
+        """Relative change of a frequency over that of a parameter, p/ω ∂ω/∂p.
 
-        Zero where the parameter is zero.
+        Zero where the parameter is zero, (modes, parameters).
         """
         now = np.array([one.value for one in self.parameters])
-        return np.asarray(self.derivatives * now / self.values[:, None])
+        return np.asarray(self.derivatives * now / self.modes.frequencies[:, None])
 
-    def of(self, result: str, parameter: str) -> float:
+    def of(self, mode: str, parameter: str) -> float:
         """Return one derivative by names."""
-        for name, among in ((result, self.results), (parameter, self.names)):
+        for name, among in ((mode, self.modes.names), (parameter, self.names)):
             if name not in among:
                 raise ValueError(f"there is no {shown(name)}: known are {', '.join(among)}")
-        row, column = self.results.index(result), self.names.index(parameter)
+        row, column = self.modes.names.index(mode), self.names.index(parameter)
         return float(self.derivatives[row, column])
 
 
@@ -117,8 +129,7 @@ def sensitivity(modes: LinearModes, parameters: Iterable[str] | None = None) -> 
     several = [known[name] for name in names]
     columns = [found.to(one) for one in several]
     return Sensitivity(
-        results=modes.names,
-        values=modes.frequencies,
+        modes=modes,
         parameters=tuple(several),
         derivatives=np.reshape(columns, (len(several), len(modes.names))).T,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -52,6 +53,11 @@ class Parameter:
     moves: bool = False
     family: str = ""
     station: int = 0
+
+    @property
+    def step(self) -> float:
+        """A small change: of an angle a degree, else a hundredth of the size."""
+        return math.radians(1.0) if self.unit == "rad" else 0.01 * self.size
 
 
 def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
