@@ -108,9 +108,9 @@ def sensitivity(modes: LinearModes, parameters: Iterable[str] | None = None) -> 
     >>> modes = linear_modes(Beam.reference(), omega=6.0, theory=Theory(extension=False))
     >>> found = sensitivity(modes, ["EI3", "m"])
     >>> print(found.relative.round(3))
-    [[ 1.088 -1.088]
-     [ 0.337 -0.337]
-     [ 0.419 -0.419]]
+    [[ 0.341 -0.341]
+     [ 0.314 -0.314]
+     [ 0.407 -0.407]]
     """
     require_modes(modes)
     if isinstance(parameters, str):

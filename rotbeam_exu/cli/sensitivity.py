@@ -20,6 +20,8 @@ from .request import Request, uses
 if TYPE_CHECKING:
     from analytic.sensitivity import Sensitivity
 
+_DIGITS = 7  # of percents; derivatives have no more
+
 
 @uses("section", "theory", "tolerance", "motion.omega")
 def sensitivity(
@@ -90,7 +92,7 @@ def _print(found: Sensitivity, rows: int) -> None:
                 "number": [one.name for one in several],
                 "change": [_change(one.step, one.size, one.unit) for one in several],
                 **{
-                    name: [f"{value:+.3g}" for value in row[places].tolist()]
+                    name: [f"{round(value, _DIGITS) + 0.0:+.3g}" for value in row[places].tolist()]
                     for name, row in zip(found.modes.names, percent, strict=True)
                 },
             },

@@ -1,0 +1,47 @@
+"""`rotbeam sensitivity`: changes in percent, and all derivatives in files."""
+
+import numpy as np
+import pytest
+
+from analytic import linear_modes
+from analytic.sensitivity import sensitivity
+from rotbeam_exu import load
+from rotbeam_exu.files.beam_file import load_beam
+from rotbeam_exu.files.blade_toml import blade_toml
+from tests.beams import irregular
+
+
+def cells(out, name):
+    (line,) = (line for line in out.splitlines() if line.startswith(f"│ {name} "))
+    return [cell.strip() for cell in line.strip("│").split("│")][1:]
+
+
+def test_it_prints_percents_and_writes_all(call, tmp_path):
+    (tmp_path / "blade.toml").write_text(blade_toml(irregular(3, 0.01, 4)))
+    options = ("--config", tmp_path / "blade.toml", "--omega", "2", "--count", "2", "--rows", "3")
+    code, out, error = call("sensitivity", *options, "-o", tmp_path)
+    assert code == 0, error
+    found = sensitivity(linear_modes(load_beam(tmp_path / "blade.toml"), 2.0, 2))
+    change, *percents = cells(out, "EI2")
+    assert change == "+1 %"
+    expected = found.relative[:, found.names.index("EI2")]
+    assert list(map(float, percents)) == pytest.approx(expected, rel=1e-2)
+    change, *percents = cells(out, "precone")
+    assert change == "+1 deg"
+    slope = found.derivatives[:, found.names.index("precone")] / found.modes.frequencies
+    assert list(map(float, percents)) == pytest.approx(100.0 * np.radians(slope), rel=1e-2)
+    several = sum("[" in name for name in found.names)
+    assert f"{several - 3} more numbers of stations change less" in out
+    (kept,) = map(load, tmp_path.glob("*.nc"))
+    np.testing.assert_allclose(kept["derivative"], found.derivatives, rtol=1e-9)
+    assert list(kept["parameter"].values) == list(found.names)
+
+
+def test_the_papers_beam_at_rest(call):
+    """ω ∝ √(EI/m), but for its axial inertia."""
+    code, out, _ = call("sensitivity", "--count", "1")
+    assert code == 0
+    assert cells(out, "EI3") == ["+1 %", "+0.5"]
+    assert cells(out, "m") == ["+1 %", "-0.5"]
+    code, _, error = call("sensitivity", "--rows", "-1")
+    assert (code, "rows must be" in error) == (2, True)
