@@ -2,5 +2,8 @@
 
 from .frequencies import Sensitivity, sensitivity
 from .parameters import Parameter, parameters_of
+from .scatter import Spread, sampled, spread
 
-__all__ = ["Parameter", "Sensitivity", "parameters_of", "sensitivity"]
+__all__ = [
+    "Parameter", "Sensitivity", "Spread", "parameters_of", "sampled", "sensitivity", "spread",
+]  # fmt: skip

@@ -112,7 +112,6 @@ def sensitivity(modes: LinearModes, parameters: Iterable[str] | None = None) -> 
      [ 0.314 -0.314]
      [ 0.407 -0.407]]
     """
-    require_modes(modes)
     if isinstance(parameters, str):
         raise TypeError(f"parameters must be names, as [{parameters!r}], got {parameters!r}")
     found = _Derivatives(modes)
@@ -145,9 +144,9 @@ class _Derivatives:
     """Derivatives of frequencies, from energies in states around the steady one."""
 
     def __init__(self, modes: LinearModes) -> None:
+        require_modes(modes)
         self.leaves_plane = isinstance(modes.model, SpaceContinuum)
-        if not self.leaves_plane:
-            modes = _in_space(modes)
+        modes = in_space(modes)
         self.blade, steady = modes.blade, modes.steady
         self.model: SpaceContinuum = steady.model
         self.by, self.still = Driven(steady.rate), steady.equilibrium
@@ -301,8 +300,11 @@ class _Derivatives:
         return np.asarray(-self.blade.frequency_scale * slope / self.slopes)
 
 
-def _in_space(modes: LinearModes) -> LinearModes:
-    """Return the modes of a planar blade in space, of some stiffness out of the plane."""
+def in_space(modes: LinearModes) -> LinearModes:
+    """Return modes in space; of a blade known in its plane, with some stiffness out of it."""
+    require_modes(modes)
+    if isinstance(modes.model, SpaceContinuum):
+        return modes
     blade = modes.blade.with_section_out_of_plane(1.0, math.inf)
     several = linear_modes(blade, modes.omega, 2 * len(modes.names), theory=modes.theory)
     places = [several.names.index(name) for name in modes.names]

@@ -9,7 +9,7 @@ for every stiffness and mass.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -42,19 +42,14 @@ class FrozenFunctions(StrainFunctions):
 
     @cached_property
     def kept(self) -> FloatArray:
-        """Strains of this blade over the solution's, (points, 6, 6).
+        """Strains of this blade's line over those of the solution's, (points, 6, 6).
 
-        The curvatures are the same. What a theory keeps rigid at a center stays rigid there.
+        The curvatures are the same, and the strains at the centers of tension and shear: there a
+        theory may keep them rigid, and where centers move apart little else would do.
         """
-        x = self.grid.points
-        soft = self.blade.flexibility(x, self.theory, self.slenderness)
-        soft = soft + np.eye(6) * (soft.diagonal(axis1=1, axis2=2) == 0.0)[:, None]
-        onto, _ = about_centers(np.linalg.inv(soft))
-        rigid = [*[0] * (not self.theory.extension), *[1, 2] * (self.theory.shear is None)]
-        result = np.tile(np.eye(6), (x.size, 1, 1))
-        result[:, rigid, :3], result[:, rigid, 3:] = 0.0, -onto[:, rigid, 3:]
-        turned = self._sections(x)
-        return turned @ result @ np.swapaxes(turned, 1, 2)
+        result = np.tile(np.eye(6), (self.grid.points.size, 1, 1))
+        result[:, :3, 3:] = _to_centers(self.of) - _to_centers(self)
+        return result
 
     @cached_property
     def strains(self) -> Strains:
@@ -108,6 +103,17 @@ class FrozenFunctions(StrainFunctions):
             inertia=self.inertia * own.inertia, carried=self.inertia * own.carried,
             whole=own.whole, drag=None,
         )  # fmt: skip
+
+
+@lru_cache(maxsize=4)
+def _to_centers(functions: StrainFunctions) -> FloatArray:
+    """Return strains at the centers less those of the line, over curvatures, (points, 3, 3)."""
+    x = functions.grid.points
+    soft = functions.blade.flexibility(x, functions.theory, functions.slenderness)
+    rigid = soft.diagonal(axis1=1, axis2=2) == 0.0
+    onto, _ = about_centers(np.linalg.inv(soft + np.eye(6) * rigid[:, None]))
+    frames = np.moveaxis(functions.blade.section_frames(x), -1, 0)
+    return np.asarray(frames @ onto[:, :3, 3:] @ np.swapaxes(frames, 1, 2))
 
 
 def frozen(functions: StrainFunctions, of: Blade, blade: Blade) -> FrozenFunctions:

@@ -36,7 +36,8 @@ class Parameter:
     size : float
         By which a change is small or large.
     changed : callable
-        From another value to the blade that has it.
+        From another value to the blade that has it; of a factor or a shift of all a table also from
+        one for each station.
     moves : bool
         Whether it moves the unloaded blade, or its clamp.
     family : str
@@ -49,7 +50,7 @@ class Parameter:
     value: float
     unit: str
     size: float
-    changed: Callable[[float], Blade] = field(repr=False)
+    changed: Callable[[Any], Blade] = field(repr=False)
     moves: bool = False
     family: str = ""
     station: int = 0
@@ -121,7 +122,7 @@ def _of_line(blade: Blade) -> Iterator[Parameter]:
     """Yield what the blade has besides its sections."""
     radius, angle, cone = blade.hub_radius, blade.setting_angle, blade.line.precone
     yield Parameter("hub_radius", radius, "m", blade.length, blade.with_hub_radius, moves=True)
-    yield Parameter("setting_angle", angle, "rad", _TURN, blade.with_setting_angle, moves=True)
+    yield Parameter("setting_angle", angle, "rad", _TURN, partial(_set_at, blade), moves=True)
     yield Parameter("precone", cone, "rad", _TURN, blade.with_precone, moves=True)
     for k, one in enumerate(blade.point_masses):
         yield Parameter(
@@ -185,14 +186,17 @@ def _places(which: int, name: str) -> list[int]:
     return [0, 1, 2] if name == "m" else [2 + MASSES.index(name)]
 
 
-def _entry(blade: Blade, which: int, name: str, at: int | slice, factor: float) -> Blade:
-    """Return the blade with a multiple of an entry of its matrices about their centers."""
+def _entry(blade: Blade, which: int, name: str, at: int | slice, factor: Any) -> Blade:
+    """Return the blade with a multiple of an entry of its matrices about their centers.
+
+    At all stations by one factor, or by one for each.
+    """
 
     def edit(onto: FloatArray, about: FloatArray) -> None:
         del onto
-        scale = np.ones(6)
-        scale[_places(which, name)] = factor
-        about[at] += about[at] * np.eye(6) * (scale - 1.0)
+        more = np.zeros((*np.shape(factor), 6))
+        more[..., _places(which, name)] = np.asarray(factor)[..., None] - 1.0
+        about[at] += about[at] * np.eye(6) * more[..., None, :]
 
     return _edited(blade, which, edit)
 
@@ -224,6 +228,17 @@ def _edited(blade: Blade, which: int, edit: Callable[[FloatArray, FloatArray], N
     edit(onto, about)
     made = np.swapaxes(onto, 1, 2) @ about @ onto
     return blade.with_section(replace(table, **{key: nested(made)}))
+
+
+def _set_at(blade: Blade, angle: Any) -> Blade:
+    """Return the blade set at an angle, or at one for each station of its twist."""
+    if not np.ndim(angle):
+        return blade.with_setting_angle(angle)
+    profile: Any = blade.line.twist
+    more = (np.asarray(angle) - blade.setting_angle).tolist()
+    return blade.with_twist(
+        tuple((x, own + change) for (x, own), change in zip(profile, more, strict=True))
+    )
 
 
 def _twisted(blade: Blade, k: int, angle: float) -> Blade:

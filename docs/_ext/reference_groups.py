@@ -39,7 +39,8 @@ GROUPS = (
         "Small vibration about steady rotation.",
         analytic="linear_modes campbell damping_ratios steady_state state_space",
         analytic__exact__linear__damping="modal_damping",
-        analytic__sensitivity="sensitivity Sensitivity parameters_of Parameter",
+        analytic__sensitivity="sensitivity Sensitivity parameters_of Parameter spread Spread "
+        "sampled",
         analytic__exact__linear__modes="LinearModes",
         analytic__exact__linear__campbell="Campbell Crossing",
     ),

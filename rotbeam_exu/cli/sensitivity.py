@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,7 +15,7 @@ from analytic.input_checks import rotation_speed, whole_number
 
 from .job import Flag, Results
 from .options import Number, Whole
-from .output import bar, print_columns, print_text
+from .output import bar, formatted, print_columns, print_text
 from .request import Request, uses
 
 if TYPE_CHECKING:
@@ -30,6 +31,8 @@ def sensitivity(
     omega: Number | None = None,
     count: Whole = 4,
     rows: Whole = 15,
+    scatter: Annotated[tuple[str, ...], Parameter(consume_multiple=True)] = (),
+    length: Number | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
@@ -46,6 +49,12 @@ def sensitivity(
         Number of modes.
     rows
         Largest number of rows of stations that are printed; netCDF and CSV have all.
+    scatter
+        Standard deviations, pairs of a number of the whole blade and its deviation, relative or in
+        its unit, as EI3=0.05 m=0.03: prints the scatter of the frequencies, and where it is from.
+    length
+        Correlation length of the scatter along the blade [m]; unless given, all stations are off
+        together.
     out
         Folder for netCDF and CSV; without it none is written.
     force
@@ -54,12 +63,14 @@ def sensitivity(
     Examples
     --------
     $ rotbeam sensitivity --omega 6
+    $ rotbeam sensitivity --omega 6 --scatter EI3=0.05 m=0.03
     $ rotbeam sensitivity --omega 6 --section rectangle --count 3 -o results
     """
     from analytic.sensitivity import sensitivity as sensitivity_of
 
     speed = rotation_speed(request.values.get("omega", 0.0) if omega is None else omega)
     whole_number("rows", rows, least=0)
+    deviations = _deviations(scatter)
     with bar("modes and derivatives"):
         modes = analytic.linear_modes(
             request.blade, speed, count, theory=request.theory, tolerance=request.tolerance
@@ -67,11 +78,43 @@ def sensitivity(
         found = sensitivity_of(modes)
     if out is None:
         _print(found, rows)
-        return
-    from ..datasets import dataset_of
+    else:
+        from ..datasets import dataset_of
 
-    Results(out=out, force=force).job(
-        f"sensitivity-omega-{speed:g}", dataset_of(found), show=lambda *_: _print(found, rows)
+        Results(out=out, force=force).job(
+            f"sensitivity-omega-{speed:g}", dataset_of(found), show=lambda *_: _print(found, rows)
+        )
+    if deviations:
+        _print_spread(found, deviations, math.inf if length is None else length)
+
+
+def _deviations(pairs: Sequence[str]) -> dict[str, float]:
+    """Return the deviations of --scatter by name."""
+    found: dict[str, float] = {}
+    for pair in pairs:
+        name, _, value = pair.partition("=")
+        if name in found:
+            raise ValueError(f"--scatter has {name} twice")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            raise ValueError(f"--scatter takes name=deviation, as EI3=0.05, got {pair!r}") from None
+    return found
+
+
+def _print_spread(found: Sensitivity, scatter: Mapping[str, float], length: float) -> None:
+    from analytic.sensitivity import spread
+
+    result = spread(found, scatter, length)
+    shares = zip(result.parameters, result.shares.T, strict=True)
+    print_columns(
+        {
+            "mode": list(found.modes.names),
+            "ω [rad/s]": formatted(found.modes.frequencies, ".5g"),
+            "± [%]": formatted(100.0 * result.relative, ".3g"),
+            **{f"of {name} [%]": formatted(100.0 * of, ".1f") for name, of in shares},
+        },
+        title="Standard deviation of the frequencies, and shares in its square",
     )
 
 

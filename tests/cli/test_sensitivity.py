@@ -45,3 +45,22 @@ def test_the_papers_beam_at_rest(call):
     assert cells(out, "m") == ["+1 %", "-0.5"]
     code, _, error = call("sensitivity", "--rows", "-1")
     assert (code, "rows must be" in error) == (2, True)
+
+
+def test_a_scatter_is_printed_with_its_shares(call, tmp_path):
+    """ω ∝ √(EI/m), but for its axial inertia."""
+    code, out, error = call("sensitivity", "--count", "1", "--scatter", "EI3=0.06", "m=0.08")
+    assert code == 0, error
+    (_, spread, *shares) = cells(out, "lag 1")
+    assert float(spread) == pytest.approx(5.0, rel=2e-2)
+    assert list(map(float, shares)) == pytest.approx([36.0, 64.0], abs=0.2)
+    for pairs, sentence in (
+        (["EI3"], "--scatter takes name=deviation, as EI3=0.05, got 'EI3'"),
+        (["EI3=0.1", "EI3=0.2"], "--scatter has EI3 twice"),
+        (["GA2=0.1"], "scatter has no parameter 'GA2'; there are EA, EI3, m"),
+        (["EI3=nan"], "the scatter of EI3 must be finite"),
+    ):
+        code, _, error = call("sensitivity", "--count", "1", "--scatter", *pairs)
+        assert (code, sentence in error) == (2, True), error
+    code, _, error = call("sensitivity", "--count", "1", "--scatter", "m=0.1", "--length", "2")
+    assert (code, "leave length out" in error) == (2, True)

@@ -27,7 +27,7 @@ using namespace chrono::fea;
 using std::make_shared;
 using std::shared_ptr;
 
-static const double SHEAR = 100.0;   // GA over EA: nearly Bernoulli and Euler's beam
+static const double SHEAR = 1.0;     // GA over EA: nearly Bernoulli and Euler's beam
 static const double TURNING = 1e-2;  // rotary inertia over m EI/EA
 static const double ALPHA = -0.05;   // of HHT
 

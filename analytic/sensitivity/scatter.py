@@ -1,0 +1,209 @@
+"""Frequencies of a blade whose numbers are uncertain: by derivatives, and by samples."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.stats import norm, qmc
+
+from ..arrays import FloatArray
+from ..blade import Blade
+from ..exact.continuum.rotation import SteadyBlade
+from ..exact.continuum.space import SpaceContinuum
+from ..exact.linear.families import LinearModes, modes_of
+from ..input_checks import not_negative, positive, shown, whole_number
+from ..threads import one_thread
+from .frequencies import Sensitivity, in_space
+from .frozen import frozen
+from .parameters import Parameter, parameters_of
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Standard deviations of frequencies, and what they come from.
+
+    Attributes
+    ----------
+    modes : LinearModes
+    parameters : tuple of str
+        Those with a scatter, independent of each other.
+    deviations : ndarray (modes,)
+        Standard deviations of the frequencies [rad/s].
+    shares : ndarray (modes, parameters)
+        Of each parameter in the variance.
+    """
+
+    modes: LinearModes
+    parameters: tuple[str, ...]
+    deviations: FloatArray
+    shares: FloatArray = field(repr=False)
+
+    @property
+    def relative(self) -> FloatArray:
+        """Deviations over the frequencies, (modes,)."""
+        return np.asarray(self.deviations / self.modes.frequencies)
+
+
+def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = math.inf) -> Spread:
+    """Return the scatter of frequencies to the first order.
+
+    Parameters
+    ----------
+    found : Sensitivity
+        Of all parameters with a scatter; with a length, of their stations, too.
+    scatter : mapping
+        Standard deviations by names of parameters of the whole blade: of "EI3", "m" and other
+        factors relative, as 0.05; else in their units, as {"setting_angle": 0.01}.
+    length : float
+        Correlation length [m] along the blade, of exp(-|Δx|/length) between stations; infinite
+        where a parameter is off by the same at all stations.
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown, a deviation is negative, or a length is given for what has no
+        stations.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> from analytic.sensitivity import sensitivity, spread
+    >>> modes = linear_modes(Beam.reference(), omega=0.0, count=1)
+    >>> found = spread(sensitivity(modes), {"EI3": 0.06, "m": 0.02})
+    >>> print(found.parameters, found.relative.round(4), found.shares.round(2))
+    ('EI3', 'm') [0.0316] [[0.9 0.1]]
+    """
+    variances = []
+    deviations = _checked(scatter, found.names)
+    for name, deviation in deviations.items():
+        gradient, covariance = _correlated(found, name, length)
+        variances.append(deviation**2 * np.einsum("mi,ij,mj->m", gradient, covariance, gradient))
+    each = np.array(variances)
+    whole = each.sum(axis=0)
+    return Spread(
+        modes=found.modes,
+        parameters=tuple(deviations),
+        deviations=np.sqrt(whole),
+        shares=(each / np.where(whole > 0.0, whole, 1.0)).T,
+    )
+
+
+def _checked(scatter: object, known: tuple[str, ...]) -> dict[str, float]:
+    """Return deviations by name, or refuse them."""
+    if not isinstance(scatter, Mapping) or not scatter:
+        raise ValueError(
+            f"scatter must be deviations by name, as {{'EI3': 0.05}}, got {shown(scatter)}"
+        )
+    for name in scatter:
+        if name not in known or "[" in name:
+            whole = ", ".join(one for one in known if "[" not in one)
+            raise ValueError(f"scatter has no parameter {shown(name)}; there are {whole}")
+    return {name: not_negative(f"the scatter of {name}", value) for name, value in scatter.items()}
+
+
+def _correlated(found: Sensitivity, name: str, length: float) -> tuple[FloatArray, FloatArray]:
+    """Return derivatives to one number or its stations, and their correlations."""
+    if length == math.inf:
+        return found.derivatives[:, [found.names.index(name)]], np.ones((1, 1))
+    positive("length", length, "m")
+    places = [k for k, one in enumerate(found.parameters) if one.family == name]
+    table = found.blade.table
+    if table is None or len(places) != len(table.x):
+        raise ValueError(
+            f"a correlation length is for numbers of stations, and {name} has none among the "
+            "derivatives: leave length out"
+        )
+    factor = found.parameters[found.names.index(name)].value
+    size = [found.parameters[k].value if factor else 1.0 for k in places]
+    return found.derivatives[:, places] * size, correlations(np.array(table.x), length)
+
+
+def correlations(x: FloatArray, length: float) -> FloatArray:
+    """Return exp(-|Δx|/length) between stations, (stations, stations)."""
+    return np.asarray(np.exp(-np.abs(x[:, None] - x) / length))
+
+
+@one_thread
+def sampled(
+    modes: LinearModes,
+    scatter: Mapping[str, float],
+    length: float = math.inf,
+    *,
+    count: int = 200,
+    seed: int = 0,
+) -> FloatArray:
+    """Return frequencies of sampled blades [rad/s], (count, modes), by name.
+
+    Normal deviations, clipped at three, on a Latin hypercube. The strains of the modes' functions
+    are kept, so that a sample costs a steady state and an eigenvalue problem: sections that turn
+    by 0.05 rad then leave some 1e-5 of a frequency, by 0.2 rad 5e-4. A mode whose name a sample
+    does not have is NaN.
+
+    Parameters
+    ----------
+    modes : LinearModes
+        Of a blade whose section out of the plane is known, or of a planar one.
+    scatter, length
+        As for `spread`.
+    count, seed : int
+        Number of samples, and of the generator.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> from analytic.sensitivity import sampled
+    >>> modes = linear_modes(Beam.reference(), omega=0.0, count=1)
+    >>> found = sampled(modes, {"EI3": 0.06, "m": 0.02}, count=50)
+    >>> print((found.std() / found.mean()).round(3))
+    0.031
+    """
+    modes = in_space(modes)
+    count, seed = whole_number("count", count), whole_number("seed", seed, least=0)
+    known = parameters_of(modes.blade, modes.theory)
+    deviations = _checked(scatter, tuple(known))
+    roots = [_root(modes.blade, known, name, length) for name in deviations]
+    dims = sum(len(root) for root in roots)
+    points = norm.ppf(qmc.LatinHypercube(dims, rng=seed).random(count))
+    result = np.full((count, len(modes.names)), np.nan)
+    for row, point in zip(result, np.clip(points, -_FAR, _FAR), strict=True):
+        blade, begin = modes.blade, 0
+        for (name, deviation), root in zip(deviations.items(), roots, strict=True):
+            change = deviation * (root @ point[begin : begin + len(root)])
+            begin += len(root)
+            blade = _changed(blade, modes, name, change)
+        row[:] = _frequencies(modes, blade)
+    return result
+
+
+_FAR = 3.0
+"""Deviations at most: farther, a stiffness may lose its sign."""
+
+
+def _root(blade: Blade, known: Mapping[str, Parameter], name: str, length: float) -> FloatArray:
+    if length == math.inf:
+        return np.ones((1, 1))
+    positive("length", length, "m")
+    if blade.table is None or all(one.family != name for one in known.values()):
+        raise ValueError(f"a correlation length is for numbers of stations, and {name} has none")
+    x = np.array(blade.table.x)
+    lower = np.linalg.cholesky(correlations(x, length))
+    return np.asarray(lower)
+
+
+def _changed(blade: Blade, modes: LinearModes, name: str, change: FloatArray) -> Blade:
+    parameter = parameters_of(blade, modes.theory)[name]
+    value = parameter.value + change
+    return parameter.changed(value if value.size > 1 else float(value[0]))
+
+
+def _frequencies(modes: LinearModes, blade: Blade) -> list[float]:
+    """Return the frequencies of the same modes of another blade [rad/s]."""
+    steady = modes.steady
+    functions = frozen(steady.model.functions, modes.blade, blade)
+    other = SteadyBlade(SpaceContinuum(functions), steady.rate, near=steady.equilibrium)
+    found = modes_of(modes.blade, modes.omega, modes.theory, other)
+    by_name = dict(zip(found.names, found.frequencies.tolist(), strict=True))
+    return [by_name.get(name, math.nan) for name in modes.names]

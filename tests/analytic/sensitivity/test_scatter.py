@@ -1,0 +1,86 @@
+"""Scatter of frequencies: to the first order, and of samples."""
+
+import numpy as np
+import pytest
+
+from analytic import Beam, Theory, linear_modes
+from analytic.sensitivity import parameters_of, sampled, sensitivity, spread
+from tests.beams import irregular, unit_beam
+
+TABLE = irregular(3, 0.01, 4)
+STRIP = unit_beam(1e-3).with_section_out_of_plane(0.25, 0.2).with_twist(0.4)
+WHOLE = ["EI3", "EI2", "m", "setting_angle"]
+
+
+@pytest.fixture(scope="module")
+def modes():
+    return linear_modes(TABLE, 2.0, 2)
+
+
+def test_of_a_slender_beam_at_rest():
+    """ω ∝ √(EI/m): half of both deviations, of which variances add up."""
+    modes = linear_modes(Beam.reference(), 0.0, 2, theory=Theory(extension=False))
+    found = spread(sensitivity(modes), {"EI3": 0.06, "m": 0.08})
+    np.testing.assert_allclose(found.relative, 0.05, rtol=1e-6)
+    np.testing.assert_allclose(found.shares, [[0.36, 0.64]] * 2, rtol=1e-6)
+
+
+def test_stations_that_are_off_together_or_each_by_itself(modes):
+    """Far-reaching correlation is the whole blade's; short ones leave the root of squares."""
+    found = sensitivity(modes)
+    scatter = {"EI2": 0.05, "center2": 0.004}
+    together = spread(found, scatter)
+    np.testing.assert_allclose(spread(found, scatter, 1e9).deviations, together.deviations)
+    alone = spread(found, scatter, 1e-9)
+    for k, name in enumerate(scatter):
+        several = [i for i, one in enumerate(found.parameters) if one.family == name]
+        sizes = [found.parameters[i].value if name == "EI2" else 1.0 for i in several]
+        parts = found.derivatives[:, several] * sizes * scatter[name]
+        variances = alone.shares[:, k] * alone.deviations**2
+        np.testing.assert_allclose(variances, np.sum(parts**2, axis=1), rtol=1e-9)
+
+
+@pytest.mark.parametrize(("name", "length"), [("strip", np.inf), ("table", 0.3)])
+def test_samples_have_the_scatter_of_the_first_order(name, length, modes):
+    """60 of them leave 9 % of a deviation; the second order shifts the mean by its square."""
+    if name == "strip":
+        modes = linear_modes(STRIP, 2.0, 2)
+    scatter = {"EI2": 0.04, "setting_angle": 0.05, "m": 0.03}
+    first = spread(sensitivity(modes), scatter, length)
+    several = sampled(modes, scatter, length, count=60, seed=3)
+    deviations = several.std(axis=0, ddof=1)
+    np.testing.assert_allclose(deviations, first.deviations, rtol=0.3)
+    np.testing.assert_allclose(several.mean(axis=0), modes.frequencies, rtol=5e-3)
+
+
+def test_a_sample_is_a_blade_of_its_own(modes, monkeypatch):
+    """By the strains of the first blade, to the square of an angle, and else to 1e-5."""
+    monkeypatch.setattr("analytic.sensitivity.scatter.norm.ppf", lambda x: 2.0 + 0.0 * x)
+    known = parameters_of(TABLE, Theory())
+    for name, deviation in (("EI2", 0.05), ("tension3", 0.01), ("setting_angle", 0.02)):
+        (found,) = sampled(modes, {name: deviation}, count=1)
+        other = known[name].changed(known[name].value + 2.0 * deviation)
+        anew = linear_modes(other, 2.0, 2, tolerance=1e-8)
+        assert anew.names == modes.names
+        np.testing.assert_allclose(found, anew.frequencies, rtol=3e-5)
+
+
+@pytest.mark.parametrize(
+    ("scatter", "length", "sentence"),
+    [
+        ({}, np.inf, r"scatter must be deviations by name, as \{'EI3': 0.05\}"),
+        ([0.05], np.inf, "scatter must be deviations by name"),
+        ({"EI3": -0.1}, np.inf, "the scatter of EI3 must not be negative"),
+        ({"EI3": True}, np.inf, "the scatter of EI3 must be a number"),
+        ({"EI3[1]": 0.1}, np.inf, r"scatter has no parameter 'EI3\[1\]'; there are EA, GJ"),
+        ({"E": 0.1}, np.inf, "scatter has no parameter 'E'; there are"),
+        ({"EI3": 0.1}, -1.0, "length must be positive"),
+        ({"EI3": 0.1}, np.nan, "length must be finite"),
+        ({"hub_radius": 0.1}, 1.0, "hub_radius has none"),
+    ],
+)
+def test_what_is_no_scatter_is_refused(scatter, length, sentence, modes):
+    for verb in (lambda: spread(sensitivity(modes), scatter, length),
+                 lambda: sampled(modes, scatter, length, count=1)):  # fmt: skip
+        with pytest.raises((ValueError, TypeError), match=sentence):
+            verb()
