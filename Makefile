@@ -30,7 +30,7 @@ references: $(VENV)/.kit  ## the benchmark's reference data and its problem stat
 	$(BIN)/python tools/references.py
 	$(BIN)/python tools/problem.py
 
-codes: $(CODES)/.made  ## other codes run the benchmark anew, in an hour; wants g++, CalculiX's ccx, OPENFAST for BeamDyn, WITH_MBDYN for MBDyn
+codes: $(CODES)/.made  ## other codes run the benchmark anew, in an hour; wants g++, CalculiX's ccx, OPENFAST for BeamDyn, WITH_MBDYN for MBDyn, CHRONO for Project Chrono
 	for script in models/codes/*/run.py; do $(CODES)/bin/python $$script || exit 1; done
 	$(CODES)/bin/python models/codes/overview.py
 
