@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from .parameters import Parameter, parameters_of
 _SWING = 5e-3  # of strains of energy one: of sums of squares the fourth power is left
 _PHASES = 8  # in a period: averages are exact up to the seventh harmonic
 _CHANGE = 3e-3  # of a parameter over its size: of the fourth power is left
+_STIFF, _SAME = 1e4, 1e-4  # EI out of the plane over that in it, and what it may change
 _AROUND = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 _AHEAD = np.array([0.0, 1.0, 2.0]), np.array([-1.5, 2.0, -0.5])
 
@@ -115,11 +116,8 @@ def sensitivity(modes: LinearModes, parameters: Iterable[str] | None = None) -> 
     if isinstance(parameters, str):
         raise TypeError(f"parameters must be names, as [{parameters!r}], got {parameters!r}")
     found = _Derivatives(modes)
-    known = found.parameters
+    known = {name: found.parameters[name] for name in parameters_of(modes.blade, modes.theory)}
     names = list(known if parameters is None else parameters)
-    if not found.leaves_plane:
-        known = {name: one for name, one in known.items() if name != "EI2"}
-        names = [name for name in names if parameters is not None or name in known]
     if unknown := [name for name in names if name not in known]:
         raise ValueError(
             f"the blade has no parameter {', '.join(map(shown, unknown))}; it has "
@@ -145,7 +143,6 @@ class _Derivatives:
 
     def __init__(self, modes: LinearModes) -> None:
         require_modes(modes)
-        self.leaves_plane = isinstance(modes.model, SpaceContinuum)
         modes = in_space(modes)
         self.blade, steady = modes.blade, modes.steady
         self.model: SpaceContinuum = steady.model
@@ -301,14 +298,16 @@ class _Derivatives:
 
 
 def in_space(modes: LinearModes) -> LinearModes:
-    """Return modes in space; of a blade known in its plane, with some stiffness out of it."""
+    """Return modes in space; of a blade known in its plane, with a large stiffness out of it."""
     require_modes(modes)
     if isinstance(modes.model, SpaceContinuum):
         return modes
-    blade = modes.blade.with_section_out_of_plane(1.0, math.inf)
-    several = linear_modes(blade, modes.omega, 2 * len(modes.names), theory=modes.theory)
-    places = [several.names.index(name) for name in modes.names]
-    return replace(
-        several, frequencies=several.frequencies[places], shares=several.shares[places],
-        coordinates=several.coordinates[places],
-    )  # fmt: skip
+    blade, count = modes.blade.with_section_out_of_plane(_STIFF, math.inf), len(modes.names)
+    several = linear_modes(blade, modes.omega, count, theory=modes.theory)
+    off = np.abs(several.frequencies / modes.frequencies - 1.0).max()
+    if off > _SAME:
+        raise ValueError(
+            f"with a stiff section out of its plane the blade has other modes, by {off:.1g}: give "
+            "the section by with_section_out_of_plane"
+        )
+    return several

@@ -12,8 +12,9 @@ import numpy as np
 
 from ..arrays import FloatArray, in_units
 from ..blade import Blade
+from ..blade_checks import require_blade
 from ..station_section import MASSES, STIFFNESSES, about_centers, nested
-from ..theory import Theory
+from ..theory import Theory, require_theory
 
 _FORCE, _AREA = "N", "N m^2"
 _UNITS = {"EA": _FORCE, "GA2": _FORCE, "GA3": _FORCE, "GJ": _AREA, "EI2": _AREA, "EI3": _AREA}
@@ -75,8 +76,10 @@ def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
     >>> from analytic import Beam, Theory
     >>> from analytic.sensitivity import parameters_of
     >>> print(*parameters_of(Beam.reference().with_tip_mass(0.1), Theory()))
-    EA EI3 m hub_radius setting_angle precone point_mass[0]
+    EA EI3 m hub_radius setting_angle point_mass[0]
     """
+    require_blade(blade)
+    require_theory(theory)
     found = [*(_of_table if blade.table else _of_section)(blade, theory)]
     return {one.name: one for one in found}
 
@@ -123,7 +126,8 @@ def _of_line(blade: Blade) -> Iterator[Parameter]:
     radius, angle, cone = blade.hub_radius, blade.setting_angle, blade.line.precone
     yield Parameter("hub_radius", radius, "m", blade.length, blade.with_hub_radius, moves=True)
     yield Parameter("setting_angle", angle, "rad", _TURN, partial(_set_at, blade), moves=True)
-    yield Parameter("precone", cone, "rad", _TURN, blade.with_precone, moves=True)
+    if blade.section.knows_space:
+        yield Parameter("precone", cone, "rad", _TURN, blade.with_precone, moves=True)
     for k, one in enumerate(blade.point_masses):
         yield Parameter(
             f"point_mass[{k}]", one.mass, "kg", one.mass, partial(_other_mass, blade, k)

@@ -16,7 +16,7 @@ from ..exact.continuum.space import SpaceContinuum
 from ..exact.linear.families import LinearModes, modes_of
 from ..input_checks import not_negative, positive, shown, whole_number
 from ..threads import one_thread
-from .frequencies import Sensitivity, in_space
+from .frequencies import Sensitivity, in_space, require_modes
 from .frozen import frozen
 from .parameters import Parameter, parameters_of
 
@@ -76,6 +76,8 @@ def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = mat
     >>> print(found.parameters, found.relative.round(4), found.shares.round(2))
     ('EI3', 'm') [0.0316] [[0.9 0.1]]
     """
+    if not isinstance(found, Sensitivity):
+        raise TypeError(f"found must be what sensitivity returns, got {shown(found)}")
     variances = []
     deviations = _checked(scatter, found.names)
     for name, deviation in deviations.items():
@@ -160,10 +162,12 @@ def sampled(
     >>> print((found.std() / found.mean()).round(3))
     0.031
     """
+    require_modes(modes)
+    names = tuple(parameters_of(modes.blade, modes.theory))
     modes = in_space(modes)
     count, seed = whole_number("count", count), whole_number("seed", seed, least=0)
     known = parameters_of(modes.blade, modes.theory)
-    deviations = _checked(scatter, tuple(known))
+    deviations = _checked(scatter, names)
     roots = [_root(modes.blade, known, name, length) for name in deviations]
     dims = sum(len(root) for root in roots)
     points = norm.ppf(qmc.LatinHypercube(dims, rng=seed).random(count))

@@ -112,6 +112,20 @@ def test_matrices_that_are_linear_about_the_line():
     np.testing.assert_allclose(column * size, anew(1.0, parameter, 2, Theory()) * size, atol=3e-6)
 
 
+@pytest.mark.parametrize("angle", [0.5, np.pi / 2])
+def test_a_set_blade_that_is_known_in_its_plane(angle):
+    """It bends in this plane alone, whatever the plane of rotation is."""
+    blade = unit_beam(1e-4).with_setting_angle(angle).with_hub_radius(0.2)
+    modes = linear_modes(blade, 3.0, 2)
+    known = parameters_of(blade, Theory())
+    found = sensitivity(modes)
+    assert found.names == tuple(known) == ("EA", "EI3", "m", "hub_radius", "setting_angle")
+    for name, column in zip(found.names, found.derivatives.T, strict=True):
+        size = known[name].size / modes.frequencies
+        expected = anew(3.0, known[name], 2, Theory())
+        np.testing.assert_allclose(column * size, expected * size, atol=1e-4, err_msg=name)
+
+
 def test_what_is_asked_by_name():
     found = sensitivity(linear_modes(STRIP, 3.0, 2), ["GJ", "EA"])
     assert found.names == ("GJ", "EA")
@@ -128,3 +142,7 @@ def test_what_is_asked_by_name():
         sensitivity(3.0)
     with pytest.raises(TypeError, match=r"parameters must be names, as \['EI3'\], got 'EI3'"):
         sensitivity(planar, "EI3")
+    with pytest.raises(TypeError, match=r"a Beam or a Blade is needed"):
+        parameters_of(3.0, Theory())
+    with pytest.raises(TypeError, match=r"theory must be a Theory"):
+        parameters_of(STRIP, "Timoshenko")

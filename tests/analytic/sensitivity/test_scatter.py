@@ -65,6 +65,15 @@ def test_a_sample_is_a_blade_of_its_own(modes, monkeypatch):
         np.testing.assert_allclose(found, anew.frequencies, rtol=3e-5)
 
 
+def test_of_what_is_no_sensitivity():
+    with pytest.raises(TypeError, match=r"found must be what sensitivity returns, got 3\.0"):
+        spread(3.0, {"EI3": 0.1})
+    with pytest.raises(TypeError, match=r"modes must be what linear_modes returns, got 3\.0"):
+        sampled(3.0, {"EI3": 0.1})
+    with pytest.raises(ValueError, match="scatter has no parameter 'EI2'; there are EA, EI3, m"):
+        sampled(linear_modes(Beam.reference(), 0.0, 1), {"EI2": 0.1})
+
+
 @pytest.mark.parametrize(
     ("scatter", "length", "sentence"),
     [
