@@ -27,17 +27,18 @@ if TYPE_CHECKING:
         sparse,
         spatial,
         special,
+        stats,
     )
 else:
-    integrate, interpolate, linalg, ndimage, optimize, signal, sparse, spatial, special = (
+    integrate, interpolate, linalg, ndimage, optimize, signal, sparse, spatial, special, stats = (
         Lazily(f"scipy.{name}")
         for name in (
             "integrate", "interpolate", "linalg", "ndimage", "optimize", "signal", "sparse",
-            "spatial", "special",
+            "spatial", "special", "stats",
         )
     )  # fmt: skip
 
 __all__ = [
     "Lazily", "integrate", "interpolate", "linalg", "ndimage", "optimize", "signal", "sparse",
-    "spatial", "special",
+    "spatial", "special", "stats",
 ]  # fmt: skip

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.stats import norm, qmc
 
 from ..arrays import FloatArray
 from ..blade import Blade
@@ -15,10 +14,14 @@ from ..exact.continuum.rotation import SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.linear.families import LinearModes, modes_of
 from ..input_checks import not_negative, positive, shown, whole_number
+from ..lazily import stats
 from ..threads import one_thread
 from .frequencies import Sensitivity, in_space, require_modes
 from .frozen import frozen
 from .parameters import Parameter, parameters_of
+
+_FAR = 3.0
+"""Deviations at most: farther, a stiffness may lose its sign."""
 
 
 @dataclass(frozen=True)
@@ -80,9 +83,11 @@ def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = mat
         raise TypeError(f"found must be what sensitivity returns, got {shown(found)}")
     variances = []
     deviations = _checked(scatter, found.names)
+    known = {one.name: one for one in found.parameters}
     for name, deviation in deviations.items():
-        gradient, covariance = _correlated(found, name, length)
-        variances.append(deviation**2 * np.einsum("mi,ij,mj->m", gradient, covariance, gradient))
+        together = _correlations(found.blade, known, name, length)
+        gradient = _gradient(found, name, len(together))
+        variances.append(deviation**2 * np.einsum("mi,ij,mj->m", gradient, together, gradient))
     each = np.array(variances)
     whole = each.sum(axis=0)
     return Spread(
@@ -106,25 +111,30 @@ def _checked(scatter: object, known: tuple[str, ...]) -> dict[str, float]:
     return {name: not_negative(f"the scatter of {name}", value) for name, value in scatter.items()}
 
 
-def _correlated(found: Sensitivity, name: str, length: float) -> tuple[FloatArray, FloatArray]:
-    """Return derivatives to one number or its stations, and their correlations."""
-    if length == math.inf:
-        return found.derivatives[:, [found.names.index(name)]], np.ones((1, 1))
-    positive("length", length, "m")
+def _gradient(found: Sensitivity, name: str, count: int) -> FloatArray:
+    """Return derivatives to a number of the whole blade, or to its relative ones at stations."""
+    whole = found.names.index(name)
+    if count == 1:
+        return found.derivatives[:, [whole]]
     places = [k for k, one in enumerate(found.parameters) if one.family == name]
-    table = found.blade.table
-    if table is None or len(places) != len(table.x):
-        raise ValueError(
-            f"a correlation length is for numbers of stations, and {name} has none among the "
-            "derivatives: leave length out"
-        )
-    factor = found.parameters[found.names.index(name)].value
+    factor = found.parameters[whole].value
     size = [found.parameters[k].value if factor else 1.0 for k in places]
-    return found.derivatives[:, places] * size, correlations(np.array(table.x), length)
+    return found.derivatives[:, places] * size
 
 
-def correlations(x: FloatArray, length: float) -> FloatArray:
-    """Return exp(-|Δx|/length) between stations, (stations, stations)."""
+def _correlations(
+    blade: Blade, known: Mapping[str, Parameter], name: str, length: float
+) -> FloatArray:
+    """Return exp(-|Δx|/length) between stations, (stations, stations), or one of a whole blade."""
+    if length == math.inf:
+        return np.ones((1, 1))
+    positive("length", length, "m")
+    x = np.array(blade.table.x if blade.table else [])
+    if not x.size or sum(one.family == name for one in known.values()) != x.size:
+        raise ValueError(
+            f"a correlation length is for numbers of stations, and {name} has none among them: "
+            "leave length out"
+        )
     return np.asarray(np.exp(-np.abs(x[:, None] - x) / length))
 
 
@@ -168,9 +178,11 @@ def sampled(
     count, seed = whole_number("count", count), whole_number("seed", seed, least=0)
     known = parameters_of(modes.blade, modes.theory)
     deviations = _checked(scatter, names)
-    roots = [_root(modes.blade, known, name, length) for name in deviations]
+    roots = [
+        np.linalg.cholesky(_correlations(modes.blade, known, name, length)) for name in deviations
+    ]
     dims = sum(len(root) for root in roots)
-    points = norm.ppf(qmc.LatinHypercube(dims, rng=seed).random(count))
+    points = stats.norm.ppf(stats.qmc.LatinHypercube(dims, rng=seed).random(count))
     result = np.full((count, len(modes.names)), np.nan)
     for row, point in zip(result, np.clip(points, -_FAR, _FAR), strict=True):
         blade, begin = modes.blade, 0
@@ -180,21 +192,6 @@ def sampled(
             blade = _changed(blade, modes, name, change)
         row[:] = _frequencies(modes, blade)
     return result
-
-
-_FAR = 3.0
-"""Deviations at most: farther, a stiffness may lose its sign."""
-
-
-def _root(blade: Blade, known: Mapping[str, Parameter], name: str, length: float) -> FloatArray:
-    if length == math.inf:
-        return np.ones((1, 1))
-    positive("length", length, "m")
-    if blade.table is None or all(one.family != name for one in known.values()):
-        raise ValueError(f"a correlation length is for numbers of stations, and {name} has none")
-    x = np.array(blade.table.x)
-    lower = np.linalg.cholesky(correlations(x, length))
-    return np.asarray(lower)
 
 
 def _changed(blade: Blade, modes: LinearModes, name: str, change: FloatArray) -> Blade:

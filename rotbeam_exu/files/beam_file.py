@@ -12,8 +12,8 @@ from typing import Any, get_args
 
 from analytic import Beam, Blade, Damping, PointMass, Section, Theory
 from analytic.description import from_description
-from analytic.exact.linear.damping import modal_damping
 from analytic.input_checks import positive, rotation_speed, shown, whole_number
+from analytic.lazily import Lazily
 from analytic.loads import Load
 from analytic.parts import Line
 from analytic.section import OutOfPlane
@@ -24,6 +24,7 @@ from .blade_files import blade_by, blade_of_file, reader_of
 from .load_file import load_of
 from .stations_file import text_of
 
+_exact = Lazily("analytic.exact.linear.damping")  # which most files do not need
 _DECIMAL_COMMA = re.compile(r"^\s*[\w.]+\s*=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", re.MULTILINE)
 
 
@@ -187,7 +188,7 @@ def _blade(table: dict[str, Any], folder: Path) -> Blade:
     point_masses = tuple(PointMass(**one) for one in masses)
     blade = _shaped(Blade(**parts, line=Line(**line), point_masses=point_masses), shape)
     if isinstance(ratio := damping.get("ratio"), dict):
-        return blade.with_damping(modal_damping(blade, ratio))
+        return blade.with_damping(_exact.modal_damping(blade, ratio))
     if ratio is not None:
         return blade.with_damping(Damping.from_ratio(blade, 1, ratio))
     return blade.with_damping(Damping(**damping))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +13,6 @@ from analytic.arrays import FloatArray, evaluated, slope_of
 from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.exact.continuum.state import SectionLoads
 from analytic.exact.continuum.unit import space_unit, trapeze_of
-from analytic.exact.linear.families import LinearModes
 from analytic.input_checks import (
     along,
     finite_array,
@@ -29,6 +28,9 @@ from analytic.theory import BERNOULLI_EULER
 from ..labels import dataset
 from ..lazily import xr
 from .attributes import beam_of, blade_attributes
+
+if TYPE_CHECKING:
+    from analytic.exact.linear.families import LinearModes
 
 _OVER = "time", "station"
 _PLACE, _SECTION = "place in the frame of the clamp [m]", "section's axes"
@@ -285,11 +287,8 @@ def vibration_of(
     """
     if mode not in modes.names:
         raise ValueError(f"mode must be one of {', '.join(modes.names)}, got {shown(mode)}")
-    number, size, length = (
-        modes.names.index(mode),
-        positive("amplitude", amplitude),
-        modes.blade.length,
-    )
+    number, length = modes.names.index(mode), modes.blade.length
+    size = positive("amplitude", amplitude)
     time = np.arange(2 * whole_number("pictures", pictures)) / pictures
     time *= 2.0 * math.pi / modes.frequencies[number]
     at, still = points_of_beam("points", points, length), modes.steady.equilibrium[None]
