@@ -142,7 +142,6 @@ class _Derivatives:
     """Derivatives of frequencies, from energies in states around the steady one."""
 
     def __init__(self, modes: LinearModes) -> None:
-        require_modes(modes)
         modes = in_space(modes)
         self.blade, steady = modes.blade, modes.steady
         self.model: SpaceContinuum = steady.model
@@ -250,8 +249,8 @@ class _Derivatives:
     def _change(self, parameter: Parameter, energies: Callable[[Blade], FloatArray]) -> FloatArray:
         """Return the derivative of energies to a parameter."""
         change = _CHANGE * parameter.size
-        one_sided = parameter.name == "hub_radius" and parameter.value < 2.0 * change
-        steps, weights = _AHEAD if one_sided else _AROUND
+        ahead = parameter.value - 2.0 * change < parameter.least
+        steps, weights = _AHEAD if ahead else _AROUND
         values = [energies(parameter.changed(parameter.value + change * step)) for step in steps]
         return np.asarray(np.tensordot(weights, values, 1) / change)
 

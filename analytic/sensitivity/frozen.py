@@ -8,18 +8,17 @@ for every stiffness and mass.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.basis import Masses, StrainFunctions, Strains
-from ..exact.continuum.unit import space_unit, trapeze_of
-from ..exact.continuum.vectors import cross
+from ..exact.continuum.unit import space_unit
 from ..quadrature import Grid
-from ..station_section import about_centers
+from ..station_section import hat
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -48,40 +47,25 @@ class FrozenFunctions(StrainFunctions):
         theory may keep them rigid, and where centers move apart little else would do.
         """
         result = np.tile(np.eye(6), (self.grid.points.size, 1, 1))
-        result[:, :3, 3:] = _to_centers(self.of) - _to_centers(self)
+        result[:, :3, 3:] = self.of.to_centers - self.to_centers
         return result
 
     @cached_property
-    def strains(self) -> Strains:
-        """The solution's functions at the grid, with what stays rigid."""
-        of = self.of.at(self.grid.points)
+    def on_grid(self) -> Strains:
+        """The solution's functions at the grid, on the unloaded line of this blade."""
+        of = self.of.on_grid
         fields = np.einsum("pij,jpn->ipn", self.kept, np.concatenate((of.gamma, of.K)))
-        return replace(of, gamma=fields[:3], K=fields[3:])
-
-    @cached_property
-    def soft(self) -> FloatArray:
-        """Strains over forces at the grid, in this blade's units, (points, 6, 6)."""
-        return self.flexibility(self.grid.points)
+        return self.on_line(self.grid.points, self.soft, fields[:3], fields[3:])
 
     @property
-    def trapeze(self) -> FloatArray:
-        """k² of the trapeze effect at the grid, (points,)."""
-        return trapeze_of(self.soft) if self.theory.trapeze else np.zeros(len(self.soft))
-
-    @cached_property
     def stiff(self) -> FloatArray:
-        """Stiffness against strains in the frame without twist, with weights, (points, 6, 6)."""
-        soft = self.soft
-        kept = np.flatnonzero(soft[0].diagonal())
-        result = np.zeros_like(soft)
-        inner = np.ix_(np.arange(len(soft)), kept, kept)
-        result[inner] = np.linalg.inv(soft[inner])
-        return np.asarray(self.force * self.grid.weights[:, None, None] * result)
+        """Stiffness against strains with weights, in the solution's units, (points, 6, 6)."""
+        return np.asarray(self.force * self.grid.weights[:, None, None] * self.hard)
 
     @cached_property
     def stiffness(self) -> FloatArray:
         """The elastic energy is ½ q·K q, (n, n)."""
-        fields = np.concatenate((self.strains.gamma, self.strains.K))
+        fields = np.concatenate((self.on_grid.gamma, self.on_grid.K))
         parts = np.einsum("ipk,pij,jpl->kl", fields, self.stiff, fields, optimize=True)
         return np.asarray(parts)
 
@@ -89,10 +73,6 @@ class FrozenFunctions(StrainFunctions):
     def damping(self) -> FloatArray:
         """None: energies are of free motion."""
         return np.zeros((self.size, self.size))
-
-    def at(self, x: FloatArray) -> Strains:
-        """Return the solution's functions at the grid, on the unloaded line of this blade."""
-        return self.on_line(x, self.soft, self.strains.gamma, self.strains.K)
 
     @cached_property
     def masses(self) -> Masses:
@@ -103,17 +83,6 @@ class FrozenFunctions(StrainFunctions):
             inertia=self.inertia * own.inertia, carried=self.inertia * own.carried,
             whole=own.whole, drag=None,
         )  # fmt: skip
-
-
-@lru_cache(maxsize=4)
-def _to_centers(functions: StrainFunctions) -> FloatArray:
-    """Return strains at the centers less those of the line, over curvatures, (points, 3, 3)."""
-    x = functions.grid.points
-    soft = functions.blade.flexibility(x, functions.theory, functions.slenderness)
-    rigid = soft.diagonal(axis1=1, axis2=2) == 0.0
-    onto, _ = about_centers(np.linalg.inv(soft + np.eye(6) * rigid[:, None]))
-    frames = np.moveaxis(functions.blade.section_frames(x), -1, 0)
-    return np.asarray(frames @ onto[:, :3, 3:] @ np.swapaxes(frames, 1, 2))
 
 
 def frozen(functions: StrainFunctions, of: Blade, blade: Blade) -> FrozenFunctions:
@@ -154,8 +123,7 @@ class Kernels:
         masses = functions.masses
         onto = np.zeros((masses.places.size, 3, 6))
         onto[:, :, :3] = np.eye(3)
-        # ω × ρ = -ρ × ω
-        onto[:, :, 3:] = -np.moveaxis(_hat(masses.offset), -1, 0)
+        onto[:, :, 3:] = -hat(masses.offset.T)  # ω × ρ = -ρ × ω
         inert = masses.mass[:, None, None] * np.swapaxes(onto, 1, 2) @ onto
         kinetic = np.einsum("kpij,pij->kp", self.velocities, inert)
         kinetic += np.einsum("kpij,ijp->kp", self.turns, masses.inertia)
@@ -164,11 +132,5 @@ class Kernels:
         stiff = np.swapaxes(kept, 1, 2) @ functions.stiff @ kept
         elastic = np.einsum("kpij,pij->kp", self.strains, stiff)
         elastic -= 2.0 * np.einsum("kpij,pij->kp", self.forced, kept[:, :3])
-        shortened = self.trapeze * functions.trapeze
+        shortened = self.trapeze * functions.trapeze(functions.soft)
         return 0.5 * elastic + shortened, -0.5 * kinetic
-
-
-def _hat(vector: FloatArray) -> FloatArray:
-    """Return a × as matrices (3, 3, places) of vectors (3, places)."""
-    axes = np.eye(3)[:, :, None]
-    return np.stack([cross(vector, one) for one in np.moveaxis(axes, 1, 0)], axis=1)

@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import FloatArray, in_units
 from ..blade import Blade
 from ..blade_checks import require_blade
-from ..station_section import MASSES, STIFFNESSES, about_centers, nested
+from ..station_section import MASSES, STIFFNESSES, StationSection, about_centers, hat, nested
 from ..theory import Theory, require_theory
 
 _FORCE, _AREA = "N", "N m^2"
@@ -45,6 +45,8 @@ class Parameter:
         At a station: the parameter that changes the same at all stations, as "EI3".
     station : int
         k of a station.
+    least : float
+        The value is not below.
     """
 
     name: str
@@ -55,6 +57,7 @@ class Parameter:
     moves: bool = False
     family: str = ""
     station: int = 0
+    least: float = -math.inf
 
     @property
     def step(self) -> float:
@@ -80,12 +83,12 @@ def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
     """
     require_blade(blade)
     require_theory(theory)
-    found = [*(_of_table if blade.table else _of_section)(blade, theory)]
+    found = _of_table(blade, blade.table, theory) if blade.table else _of_section(blade)
     return {one.name: one for one in found}
 
 
-def _of_section(blade: Blade, theory: Theory) -> Iterator[Parameter]:
-    del theory  # its shear stiffness goes with EA
+def _of_section(blade: Blade) -> Iterator[Parameter]:
+    # Its shear stiffness goes with EA.
     section, out = blade.section, blade.section.out_of_plane
     profiles = {"EA": "axial_stiffness", "EI3": "bending_stiffness", "m": "mass_per_length"}
     if section.rotary_inertia is not None:
@@ -124,7 +127,9 @@ def _other_ratio(blade: Blade, key: str, factor: float) -> Blade:
 def _of_line(blade: Blade) -> Iterator[Parameter]:
     """Yield what the blade has besides its sections."""
     radius, angle, cone = blade.hub_radius, blade.setting_angle, blade.line.precone
-    yield Parameter("hub_radius", radius, "m", blade.length, blade.with_hub_radius, moves=True)
+    yield Parameter(
+        "hub_radius", radius, "m", blade.length, blade.with_hub_radius, moves=True, least=0.0
+    )
     yield Parameter("setting_angle", angle, "rad", _TURN, partial(_set_at, blade), moves=True)
     if blade.section.knows_space:
         yield Parameter("precone", cone, "rad", _TURN, blade.with_precone, moves=True)
@@ -140,9 +145,7 @@ def _other_mass(blade: Blade, k: int, mass: float) -> Blade:
     return replace(blade, point_masses=tuple(masses))
 
 
-def _of_table(blade: Blade, theory: Theory) -> Iterator[Parameter]:
-    table = blade.table
-    assert table is not None
+def _of_table(blade: Blade, table: StationSection, theory: Theory) -> Iterator[Parameter]:
     stations: list[Parameter] = []
     entries = [(0, n) for n in STIFFNESSES if theory.shear is not None or not n.startswith("GA")]
     (S_onto, S), (M_onto, M) = (about_centers(np.array(of)) for of in (table.stiffness, table.mass))
@@ -160,16 +163,14 @@ def _of_table(blade: Blade, theory: Theory) -> Iterator[Parameter]:
             ]  # fmt: skip
     for which, name, onto in ((0, "tension", S_onto), (1, "center", M_onto)):
         for axis in (2, 3):
-            places = onto[:, 0, 5] * -1.0 if axis == 2 else onto[:, 0, 4]
             family, size = f"{name}{axis}", _SMALL * blade.length
-            shifted = partial(_center, blade, which, axis, slice(None), places)
-            yield Parameter(family, 0.0, "m", size, shifted)
+            yield Parameter(family, 0.0, "m", size, partial(_shifted, blade, which, axis))
             stations += [
                 Parameter(
                     f"{family}[{k}]", value, "m", size,
-                    partial(_center, blade, which, axis, k, np.zeros(1)), family=family, station=k,
+                    partial(_centered, blade, which, axis, k), family=family, station=k,
                 )
-                for k, value in enumerate(places.tolist())
+                for k, value in enumerate(_centers_of(onto)[:, axis - 1].tolist())
             ]  # fmt: skip
     yield from _of_line(blade)
     yield from stations
@@ -209,19 +210,32 @@ def _other_entry(blade: Blade, which: int, name: str, k: int, now: float, value:
     return _entry(blade, which, name, k, value / now)
 
 
-def _center(
-    blade: Blade, which: int, axis: int, at: int | slice, before: FloatArray, place: float
-) -> Blade:
-    """Return the blade with a center elsewhere, `before` and `place` together."""
+def _centers_of(onto: FloatArray) -> FloatArray:
+    """Return the centers (0, c2, c3) of what takes strains or velocities to them, (stations, 3)."""
+    return np.stack((np.zeros(len(onto)), -onto[:, 0, 5], onto[:, 0, 4]), axis=1)
+
+
+def _shifted(blade: Blade, which: int, axis: int, change: Any) -> Blade:
+    """Return the blade with all centers moved along an axis, the same or by one for each."""
+    return _edited(blade, which, lambda onto, _: _move(onto, which, axis, slice(None), change))
+
+
+def _centered(blade: Blade, which: int, axis: int, k: int, place: float) -> Blade:
+    """Return the blade with one center at another place along an axis."""
 
     def edit(onto: FloatArray, about: FloatArray) -> None:
         del about
-        c = before + place if isinstance(at, slice) else place
-        onto[at, 0, 5 if axis == 2 else 4] = -c if axis == 2 else c
-        if which == 1:
-            onto[at, 2 if axis == 2 else 1, 3] = c if axis == 2 else -c
+        _move(onto, which, axis, k, place - _centers_of(onto)[k, axis - 1])
 
     return _edited(blade, which, edit)
+
+
+def _move(onto: FloatArray, which: int, axis: int, at: int | slice, change: Any) -> None:
+    """Move centers in place: of tension for the strain along, of mass for all velocities."""
+    centers = _centers_of(onto)
+    centers[at, axis - 1] += change
+    rows = slice(3) if which else slice(1)
+    onto[:, rows, 3:] = -hat(centers)[:, rows]
 
 
 def _edited(blade: Blade, which: int, edit: Callable[[FloatArray, FloatArray], None]) -> Blade:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ...arrays import FloatArray, evaluated, slope_of
 from ...quadrature import Grid
 from ...shape_functions import shape_functions
+from ...station_section import about_centers
 from ...theory import Theory
 from .answers import Answers, beside
 from .unit import SpaceUnit, trapeze_of
@@ -259,6 +260,31 @@ class StrainFunctions:
         strains = np.swapaxes(conjugate, 1, 2)
         return self.on_line(x, soft, strains[:3], strains[3:])
 
+    @cached_property
+    def on_grid(self) -> Strains:
+        """The functions at the points of the grid."""
+        return self.at(self.grid.points)
+
+    @cached_property
+    def soft(self) -> FloatArray:
+        """Strains over forces at the grid, (points, 6, 6)."""
+        return self.flexibility(self.grid.points)
+
+    @cached_property
+    def hard(self) -> FloatArray:
+        """Forces over strains at the grid, (points, 6, 6); 1 over those that stay zero."""
+        rigid = self.soft.diagonal(axis1=1, axis2=2) == 0.0
+        return np.asarray(np.linalg.inv(self.soft + np.eye(6) * rigid[:, None]))
+
+    @cached_property
+    def to_centers(self) -> FloatArray:
+        """Strains at the centers less those of the line, over curvatures, (points, 3, 3)."""
+        return about_centers(self.hard)[0][:, :3, 3:]
+
+    def trapeze(self, soft: FloatArray) -> FloatArray:
+        """Return k² of the trapeze effect, or zero, where strains over forces are `soft`."""
+        return trapeze_of(soft) if self.theory.trapeze else np.zeros(len(soft))
+
     def on_line(self, x: FloatArray, soft: FloatArray, gamma: FloatArray, K: FloatArray) -> Strains:
         """Return functions at `x`, where strains over forces are `soft`, with the line there."""
         return Strains(
@@ -266,7 +292,7 @@ class StrainFunctions:
             K=K,
             initial=self.blade.bent(x),
             twist=slope_of(self.blade.line.twist, x) * (self.theory.trapeze is True),
-            trapeze=trapeze_of(soft) if self.theory.trapeze else np.zeros_like(x),
+            trapeze=self.trapeze(soft),
         )
 
     @cached_property

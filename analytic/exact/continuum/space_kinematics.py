@@ -30,7 +30,7 @@ class SpaceKinematics:
         self.integrals = self.blade.running(grid, masses.places[grid.points.size :])
         self._frames = Frames(self.integrals, self.blade.kinks)
         self.masses = masses
-        self.strains = functions.at(grid.points)
+        self.strains = functions.on_grid
         self._spans = dict[tuple[float, ...], Span]()
         self.outboard = {"length": self.weights * (1.0 - self.points), "tip": self.weights}
 

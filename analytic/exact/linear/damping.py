@@ -26,7 +26,7 @@ _COUNT = 12
 _ROUNDS = 2
 """Fits, the second less what the first left, a third power of the ratios."""
 _MET = 1e-3
-"""Relative: ratios that are this near to those asked for are met."""
+"""Relative error of a ratio without a warning."""
 _OF_FAMILY = {"flap": "out_of_plane", "lag": "bending", "torsion": "torsion", "axial": "axial"}
 
 
@@ -99,7 +99,7 @@ def modal_damping(
     It has one coefficient for each family that is named: bending out of the plane for flap, bending
     for lag, torsion, axial. Three modes of three families get their ratios; of more modes than
     families the coefficients are a least-squares fit of the relative errors, none of them negative,
-    and a warning tells which ratios they give.
+    and a warning has the ratios that they give.
 
     Parameters
     ----------
@@ -130,19 +130,19 @@ def modal_damping(
     >>> print(*linear_modes(blade, omega=0.0).names, damped.round(4))
     flap 1 lag 1 flap 2 [0.005  0.01   0.0246]
     """
-    asked = {
+    given = {
         mode_name(blade, omega, name, theory): positive(f"the ratio of {name}", ratio)
         for name, ratio in _pairs(ratios)
     }
-    target = np.array(list(asked.values()))
+    target = np.array(list(given.values()))
     names = linear_modes(blade, omega, _COUNT, theory=theory, functions=2 * _COUNT).names
-    if unknown := [name for name in asked if name not in names]:
+    if unknown := [name for name in given if name not in names]:
         raise ValueError(
             f"ratios name {', '.join(unknown)}; the {_COUNT} lowest modes of the blade are "
             f"{', '.join(names)}"
         )
-    places = [names.index(name) for name in asked]
-    families = dict.fromkeys(_OF_FAMILY[name.partition(" ")[0]] for name in asked)
+    places = [names.index(name) for name in given]
+    families = dict.fromkeys(_OF_FAMILY[name.partition(" ")[0]] for name in given)
 
     def reached(etas: FloatArray) -> FloatArray:
         damping = Damping(**dict(zip(families, etas.tolist(), strict=True)))
@@ -157,7 +157,7 @@ def modal_damping(
         found = reached(etas)
         wanted = target - (found - effect @ etas)
     if np.abs(found / target - 1.0).max() > _MET:
-        reach = ", ".join(f"{name} {ratio:.3g}" for name, ratio in zip(asked, found, strict=True))
+        reach = ", ".join(f"{name} {ratio:.3g}" for name, ratio in zip(given, found, strict=True))
         warn(f"no damping of these families gives all ratios; the nearest gives {reach}")
     return Damping(**dict(zip(families, etas.tolist(), strict=True)))
 
