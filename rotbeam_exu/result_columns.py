@@ -119,15 +119,16 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
     ),
     Sensitivity: (
         {
-            "mode": ("mode", "mode", lambda result: [*result.modes.names]),
+            "output": ("output", "number of the answer", lambda result: [*result.outputs]),
+            "output_value": _named("values", "output", "its value, in its unit"),
+            "output_unit": ("output", "its unit", lambda result: [*result.units]),
             "parameter": ("parameter", "parameter", lambda result: [*result.names]),
-            "frequency": _named("modes.frequencies", "mode", "natural frequency [rad/s]"),
             "value": _each("parameter", "value", "value, in its unit"),
             "unit": _each("parameter", "unit", "unit of the parameter", str),
             "derivative": _named(
-                "derivatives", ("mode", "parameter"), "change of ω over that of the parameter"
+                "derivatives", ("output", "parameter"), "change of the output over the parameter's"
             ),
-            "relative": _named("relative", ("mode", "parameter"), "the same of relative changes"),
+            "relative": _named("relative", ("output", "parameter"), "the same of relative changes"),
         },
         ("omega",),
     ),

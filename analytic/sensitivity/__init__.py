@@ -1,6 +1,6 @@
 """How exact answers change with the numbers of a blade: derivatives by the answer's own tangent."""
 
-from .frequencies import Sensitivity, sensitivity
+from .derivatives import Sensitivity, sensitivity
 from .parameters import Parameter, parameters_of
 from .scatter import Spread, sampled, spread
 

@@ -104,7 +104,8 @@ class Kernels:
     (sums, masses, 6, 6), and the spins against which sections and the clamp have inertia
     (sums, masses, 3, 3): all in the frame without twist. `trapeze` (sums, points) is the work of
     tension over k² by which twist shortens the axis, `twisted` its change with the twist κ01;
-    `forced` (sums, points, 3, 6) are forces times strains.
+    `forced` (sums, points, 3, 6) are forces times strains; `pulled` (sums, masses, 4) is the work
+    of loads per mass, on the line and on each component of an offset.
     """
 
     strains: FloatArray
@@ -114,9 +115,10 @@ class Kernels:
     trapeze: FloatArray
     twisted: FloatArray
     forced: FloatArray
+    pulled: FloatArray
 
     def energies(self, functions: FrozenFunctions) -> tuple[FloatArray, FloatArray]:
-        """Return elastic less kinetic energy, of the points of the grid and of the masses.
+        """Return elastic less kinetic energy and work, of the points of the grid and of the masses.
 
         Each (sums, ...); their sum is that of the blade.
         """
@@ -128,6 +130,8 @@ class Kernels:
         kinetic = np.einsum("kpij,pij->kp", self.velocities, inert)
         kinetic += np.einsum("kpij,ijp->kp", self.turns, masses.inertia)
         kinetic += np.einsum("kpij,ijp->kp", self.carried, masses.carried)
+        hung = np.concatenate((np.ones((1, masses.places.size)), masses.offset))
+        kinetic += 2.0 * masses.mass * np.einsum("kpi,ip->kp", self.pulled, hung)
         kept = functions.kept
         stiff = np.swapaxes(kept, 1, 2) @ functions.stiff @ kept
         elastic = np.einsum("kpij,pij->kp", self.strains, stiff)

@@ -16,7 +16,8 @@ from ..exact.linear.families import LinearModes, modes_of
 from ..input_checks import not_negative, positive, shown, whole_number
 from ..lazily import stats
 from ..threads import one_thread
-from .frequencies import Sensitivity, in_space, require_modes
+from .derivatives import Answer, Sensitivity
+from .frequencies import in_space, require_modes
 from .frozen import frozen
 from .parameters import Parameter, parameters_of
 
@@ -26,32 +27,38 @@ _FAR = 3.0
 
 @dataclass(frozen=True)
 class Spread:
-    """Standard deviations of frequencies, and what they come from.
+    """Standard deviations of the numbers of an answer, and what they come from.
 
     Attributes
     ----------
-    modes : LinearModes
+    answer : LinearModes or SteadyState
+    outputs : tuple of str
+        Its numbers, as of `Sensitivity`.
+    values : ndarray (outputs,)
     parameters : tuple of str
         Those with a scatter, independent of each other.
-    deviations : ndarray (modes,)
-        Standard deviations of the frequencies [rad/s].
-    shares : ndarray (modes, parameters)
+    deviations : ndarray (outputs,)
+        Standard deviations, in the units of the outputs.
+    shares : ndarray (outputs, parameters)
         Of each parameter in the variance.
     """
 
-    modes: LinearModes
+    answer: Answer
+    outputs: tuple[str, ...]
+    values: FloatArray
     parameters: tuple[str, ...]
     deviations: FloatArray
     shares: FloatArray = field(repr=False)
 
     @property
     def relative(self) -> FloatArray:
-        """Deviations over the frequencies, (modes,)."""
-        return np.asarray(self.deviations / self.modes.frequencies)
+        """Deviations over the values, not a number where a value is zero, (outputs,)."""
+        values = np.where(self.values == 0.0, np.nan, self.values)
+        return np.asarray(self.deviations / np.abs(values))
 
 
 def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = math.inf) -> Spread:
-    """Return the scatter of frequencies to the first order.
+    """Return the scatter of an answer's numbers to the first order.
 
     Parameters
     ----------
@@ -91,7 +98,9 @@ def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = mat
     each = np.array(variances)
     whole = each.sum(axis=0)
     return Spread(
-        modes=found.modes,
+        answer=found.answer,
+        outputs=found.outputs,
+        values=found.values,
         parameters=tuple(deviations),
         deviations=np.sqrt(whole),
         shares=(each / np.where(whole > 0.0, whole, 1.0)).T,

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
 
 import analytic
+from analytic.exact.linear.steady_state import SteadyState
 from analytic.input_checks import rotation_speed, whole_number
 
 from .job import Flag, Results
@@ -24,22 +25,23 @@ if TYPE_CHECKING:
 _DIGITS = 7  # of percents; derivatives have no more
 
 
-@uses("section", "theory", "tolerance", "motion.omega")
+@uses("section", "theory", "tolerance", "motion.omega", "loads")
 def sensitivity(
     request: Request,
     *,
     omega: Number | None = None,
     count: Whole = 4,
+    steady: Flag = False,
     rows: Whole = 15,
     scatter: Annotated[tuple[str, ...], Parameter(consume_multiple=True)] = (),
     length: Number | None = None,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
-    """Print how frequencies change with the numbers of a blade.
+    """Print how frequencies, or tip and root loads, change with the numbers of a blade.
 
-    Of the exact blade about its steady rotation, at a speed that stays. Stiffness, mass, offsets
-    and twist of a table at each of its stations, too; those first that change a frequency most.
+    Of the exact blade in steady rotation, at a speed that stays. Stiffness, mass, offsets and twist
+    of a table at each of its stations, too; those first that change a frequency most.
 
     Parameters
     ----------
@@ -47,11 +49,13 @@ def sensitivity(
         Rotation speed [rad/s]; unless given, that of the file, or zero.
     count
         Number of modes.
+    steady
+        Of the steady state under the loads instead: its tip, and force and moment on the clamp.
     rows
         Largest number of rows of stations that are printed; netCDF and CSV have all.
     scatter
         Standard deviations, pairs of a number of the whole blade and its deviation, relative or in
-        its unit, as EI3=0.05 m=0.03: prints the scatter of the frequencies, and where it is from.
+        its unit, as EI3=0.05 m=0.03: prints the scatter that comes of it, and where it is from.
     length
         Correlation length of the scatter along the blade [m]; unless given, all stations are off
         together.
@@ -64,6 +68,7 @@ def sensitivity(
     --------
     $ rotbeam sensitivity --omega 6
     $ rotbeam sensitivity --omega 6 --scatter EI3=0.05 m=0.03
+    $ rotbeam sensitivity --steady --config models/blades/nrel_5mw.toml --omega 1.2
     $ rotbeam sensitivity --omega 6 --section rectangle --count 3 -o results
     """
     from analytic.sensitivity import sensitivity as sensitivity_of
@@ -71,18 +76,27 @@ def sensitivity(
     speed = rotation_speed(request.values.get("omega", 0.0) if omega is None else omega)
     whole_number("rows", rows, least=0)
     deviations = _deviations(scatter)
-    with bar("modes and derivatives"):
-        modes = analytic.linear_modes(
-            request.blade, speed, count, theory=request.theory, tolerance=request.tolerance
+    if request.loads and not steady:
+        raise ValueError(
+            f"{request.config or 'the command'} has [[loads]], which act on the steady state: add "
+            "--steady, or leave them out"
         )
-        found = sensitivity_of(modes)
+    settings: Any = {"theory": request.theory, "tolerance": request.tolerance}
+    with bar("answer and derivatives"):
+        found = sensitivity_of(
+            analytic.steady_state(request.blade, speed, loads=request.loads, **settings)
+            if steady
+            else analytic.linear_modes(request.blade, speed, count, **settings)
+        )
     if out is None:
         _print(found, rows)
     else:
         from ..datasets import dataset_of
 
         Results(out=out, force=force).job(
-            f"sensitivity-omega-{speed:g}", dataset_of(found), show=lambda *_: _print(found, rows)
+            f"sensitivity-{'steady-' * steady}omega-{speed:g}",
+            dataset_of(found),
+            show=lambda *_: _print(found, rows),
         )
     if deviations:
         _print_spread(found, deviations, math.inf if length is None else length)
@@ -109,40 +123,65 @@ def _print_spread(found: Sensitivity, scatter: Mapping[str, float], length: floa
     shares = zip(result.parameters, result.shares.T, strict=True)
     print_columns(
         {
-            "mode": list(found.modes.names),
-            "ω [rad/s]": formatted(found.modes.frequencies, ".5g"),
+            **_values(found),
+            "±": formatted(result.deviations, ".3g"),
             "± [%]": formatted(100.0 * result.relative, ".3g"),
             **{f"of {name} [%]": formatted(100.0 * of, ".1f") for name, of in shares},
         },
-        title="Standard deviation of the frequencies, and shares in its square",
+        title="Standard deviations, and shares in their squares",
     )
 
 
+def _values(found: Sensitivity) -> dict[str, list[str]]:
+    """Return columns of what was computed."""
+    digits = ".6g" if isinstance(found.answer, SteadyState) else ".5g"
+    return {
+        "number": [*map(_title, found.outputs, found.units)],
+        "value": formatted(found.values, digits),
+    }
+
+
+def _title(output: str, unit: str) -> str:
+    return f"{output} [{unit}]"
+
+
 def _print(found: Sensitivity, rows: int) -> None:
-    """Print changes in percent, of the whole blade and of what matters most at stations."""
-    steps = np.array([one.step for one in found.parameters])
-    percent = 100.0 * found.derivatives * steps / found.modes.frequencies[:, None]
-    largest = np.abs(percent).max(axis=0)
+    """Print changes of the whole blade and of what matters most at stations.
+
+    Those of frequencies in percent.
+    """
+    changes = found.derivatives * [one.step for one in found.parameters]
+    groups: tuple[tuple[str, slice], ...]
+    if isinstance(found.answer, SteadyState):
+        print_columns(_values(found), title=f"Steady state at {found.omega:g} rad/s")
+        titles = [*map(_title, found.outputs, found.units)]
+        groups = (("tip", slice(4)), ("force", slice(4, 7)), ("moment", slice(7, 10)))
+    else:
+        changes *= 100.0 / found.values[:, None]
+        titles, groups = [*found.outputs], (("frequencies [%]", slice(None)),)
     stations = [k for k, one in enumerate(found.parameters) if one.family]
-    whole = [k for k in range(steps.size) if k not in set(stations)]
-    first = sorted(stations, key=lambda k: -largest[k])[:rows]
-    for title, places in (("the whole blade", whole), ("one station", first)):
-        if not places:
-            continue
-        several = [found.parameters[k] for k in places]
-        print_columns(
-            {
-                "number": [one.name for one in several],
-                "change": [_change(one.step, one.size, one.unit) for one in several],
-                **{
-                    name: [f"{round(value, _DIGITS) + 0.0:+.3g}" for value in row[places].tolist()]
-                    for name, row in zip(found.modes.names, percent, strict=True)
+    whole = np.setdiff1d(np.arange(len(found.parameters)), stations).tolist()
+    for what, some in groups:
+        of = changes[some]
+        largest = np.abs(of).max(axis=0)
+        first = sorted(stations, key=lambda k: -largest[k])[:rows]
+        for title, places in (("the whole blade", whole), ("one station", first)):
+            several = [found.parameters[k] for k in places]
+            if not several:
+                continue
+            print_columns(
+                {
+                    "number": [one.name for one in several],
+                    "change": [_change(one.step, one.size, one.unit) for one in several],
+                    **{
+                        name: [f"{round(value, _DIGITS) + 0.0:+.3g}" for value in row.tolist()]
+                        for name, row in zip(titles[some], of[:, places], strict=True)
+                    },
                 },
-            },
-            title=f"Change of the frequencies [%] by a change of {title}, at {found.omega:g} rad/s",
-        )
-    if len(first) < len(stations):
-        print_text(f"{len(stations) - len(first)} more numbers of stations change less")
+                title=f"Change of the {what} by a change of {title}, at {found.omega:g} rad/s",
+            )
+        if len(first) < len(stations):
+            print_text(f"{len(stations) - len(first)} more numbers of stations change less")
 
 
 def _change(step: float, size: float, unit: str) -> str:

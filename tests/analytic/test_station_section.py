@@ -143,7 +143,7 @@ def test_shear_centers_off_the_line_twist_a_blade_under_a_dead_force():
     """GJ κ1 = -F c2: a force on the line bends straight and twists by its lever to the centers."""
     blade = Blade.from_stations(X, STIFFNESS, MASS, shear=[(0.02, 0.0)] * 4)
     state = steady_state(blade, 0.0, force=(0.0, 0.0, 1e-6), theory=SHEARED)
-    steady = state._steady
+    steady = state.steady
     twist = steady.model.weights @ (steady.model.strains.K[0] @ steady.equilibrium)
     assert twist == pytest.approx(-0.02 * 1e-6 / G, rel=1e-6)  # and the square of the load
 

@@ -28,7 +28,7 @@ def test_it_prints_percents_and_writes_all(call, tmp_path):
     assert list(map(float, percents)) == pytest.approx(expected, rel=1e-2)
     change, *percents = cells(out, "precone")
     assert change == "+1 deg"
-    slope = found.derivatives[:, found.names.index("precone")] / found.modes.frequencies
+    slope = found.derivatives[:, found.names.index("precone")] / found.values
     assert list(map(float, percents)) == pytest.approx(100.0 * np.radians(slope), rel=1e-2)
     several = sum("[" in name for name in found.names)
     assert f"{several - 3} more numbers of stations change less" in out
@@ -47,11 +47,37 @@ def test_the_papers_beam_at_rest(call):
     assert (code, "rows must be" in error) == (2, True)
 
 
+def test_a_steady_state_under_its_loads(call, tmp_path):
+    """A stiff blade's weight: all of it is in the moment at the root."""
+    (tmp_path / "blade.toml").write_text(
+        "[blade]\nlength = 2.0\n[blade.section]\naxial_stiffness = 1e9\n"
+        "bending_stiffness = 1e6\nmass_per_length = 3.0\n[blade.section.out_of_plane]\n"
+        'bending_ratio = 1.0\ntorsion_ratio = 1.0\n[[loads]]\nkind = "Gravity"\ngravity = 10.0\n'
+        "tilt = 1.5707963267948966\n"
+    )
+    options = ("--config", tmp_path / "blade.toml", "--steady")
+    code, out, error = call("sensitivity", *options, "--scatter", "m=0.1", "-o", tmp_path)
+    assert code == 0, error
+    moments = 3.0 * 10.0 * 2.0**2 / 2.0
+    (row,) = (line for line in out.splitlines() if line.startswith("│ m ") and "+0.6" in line)
+    assert [cell.strip() for cell in row.strip("│").split("│")][2:] == ["+0", "+0.6", "+0"]
+    value, spread, *_ = cells(out.partition("Standard")[2], "root moment y [N m]")
+    assert (float(value), float(spread)) == pytest.approx((moments, 0.1 * moments), rel=1e-3)
+    (kept,) = map(load, tmp_path.glob("sensitivity-steady-*.nc"))
+    at = {"output": list(kept["output"].values).index("root moment y")}
+    assert float(kept["output_value"][at]) == pytest.approx(moments, rel=1e-3)
+    code, _, error = call("sensitivity", *options[:2])
+    assert (
+        code,
+        "has [[loads]], which act on the steady state: add --steady, or leave" in error,
+    ) == (2, True)
+
+
 def test_a_scatter_is_printed_with_its_shares(call, tmp_path):
     """ω ∝ √(EI/m), but for its axial inertia."""
     code, out, error = call("sensitivity", "--count", "1", "--scatter", "EI3=0.06", "m=0.08")
     assert code == 0, error
-    (_, spread, *shares) = cells(out, "lag 1")
+    (_, _, spread, *shares) = cells(out, "lag 1 [rad/s]")
     assert float(spread) == pytest.approx(5.0, rel=2e-2)
     assert list(map(float, shares)) == pytest.approx([36.0, 64.0], abs=0.2)
     for pairs, sentence in (

@@ -114,7 +114,7 @@ class Continuum(Kinematics):
         self.outboard = {"mass": outboard, "length": integral.T @ dx, "tip": self.weights}
 
     def _fields(self, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray, by: Driven) -> _Fields:
-        rate, rate_dot, push, _ = by
+        rate, rate_dot, push = by[:3]
         turn = np.exp(1j * self._angle(q))
         stretch = 1.0 + self._strain(q)
         stretch_rate = self._strain(q_dot)

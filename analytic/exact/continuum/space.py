@@ -74,7 +74,7 @@ class SpaceContinuum(SpaceKinematics):
         if not self.masses.turns:
             rotary = np.zeros_like(pulled)
         else:
-            W = self._clamp(by)[0]
+            W = self.clamp(by)[0]
             rotary = (
                 self.inertia(at, motion.turn_rate)
                 + cross(motion.turn, self.inertia(at, motion.turn))
@@ -175,7 +175,7 @@ class SpaceContinuum(SpaceKinematics):
         at = self._state(q)
         motion = self._motion(at, q_dot, q_ddot, by)
         forces, following = self._forces(at, motion, by), self._following(at, by)
-        clamp = [np.broadcast_to(of, (3, len(q), 1)) for of in self._clamp(by)[:2]]
+        clamp = [np.broadcast_to(of, (3, len(q), 1)) for of in self.clamp(by)[:2]]
         matrices = np.empty((3, *q.shape, q.shape[1]))
         few = max(1, _IN_CACHE // (q.shape[1] * self.points.size))
         for first in range(0, len(q), few):
@@ -363,7 +363,7 @@ class SpaceContinuum(SpaceKinematics):
     def amended_potential(self, q: FloatArray, rate: float) -> FloatArray:
         """Return V - T0, which with the kinetic energy is the Jacobi integral, (samples,)."""
         at = self._state(q)
-        W, _, hub = self._clamp(Driven(rate))
+        W, _, hub = self.clamp(Driven(rate))
         carried = cross(W, hub + at.place_m + at.offset_m)
         spin = np.broadcast_to(W, carried.shape)
         return np.asarray(
@@ -380,4 +380,4 @@ class SpaceContinuum(SpaceKinematics):
         """Return the derivatives about states `q` (samples, n) at rest."""
         at, still = self._state(q), np.zeros_like(q)
         motion = self._motion(at, still, still, Driven(0.0))
-        return Changes(self, at, motion, *self._clamp(Driven(0.0))[:2])
+        return Changes(self, at, motion, *self.clamp(Driven(0.0))[:2])

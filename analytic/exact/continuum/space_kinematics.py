@@ -66,8 +66,11 @@ class SpaceKinematics:
             turned(frame_m, self.masses.offset[:, None]),
         )  # fmt: skip
 
-    def _clamp(self, by: Driven) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def clamp(self, by: Driven) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return W, Ẇ and the clamp's place h from the axis of rotation, (3, samples, 1)."""
+        if by.clamp is not None:
+            moved: tuple[FloatArray, FloatArray, FloatArray] = by.clamp
+            return moved
         axis, hub = self.blade.axis[:, None, None], self.blade.clamp[:, None, None]
         w, w_dot = (np.atleast_1d(np.asarray(x, dtype=float))[:, None] for x in by[:2])
         return axis * w, axis * w_dot, hub
@@ -89,7 +92,7 @@ class SpaceKinematics:
             + cross(spin, cross(spin, at.slope) + 2.0 * stretching)
             + speeding
         )
-        W, W_dot, hub = self._clamp(by)
+        W, W_dot, hub = self.clamp(by)
         place = hub + at.place_m
         total = spin_m + W
         total_rate = spin_rate_m + cross(W, spin_m) + W_dot
@@ -116,10 +119,15 @@ class SpaceKinematics:
         """
         at = self._state(q)
         motion = self._motion(at, q_dot, np.zeros_like(q), by)
-        W, _, hub = self._clamp(by)
+        W, _, hub = self.clamp(by)
         velocity = motion.velocity_m + cross(W, hub + at.place_m)
         kinds = (velocity, motion.total_spin, motion.turn, W)
         return [turned_back(at.frame_m, one) for one in kinds]
+
+    def hung(self, q: FloatArray, by: Driven) -> tuple[FloatArray, FloatArray]:
+        """Return where masses are on the line, from the axis, and frames, (3, ..., masses)."""
+        at = self._state(q)
+        return self.clamp(by)[2] + at.place_m, at.frame_m
 
     def tip(self, q: FloatArray) -> FloatArray:
         """Return the tip's place r(1) in the root frame, (samples, 3)."""

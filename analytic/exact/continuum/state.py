@@ -154,6 +154,7 @@ class Driven(NamedTuple):
     rate_dot: Any = 0.0
     push: Any = None  # load beyond each Gauss point, as the discretization's `push` returns it
     follow: Any = ()  # loads that turn with sections: each a `Span`, force and moment there
+    clamp: Any = None  # W, Ẇ and h of a clamp that is moved, (3, samples, 1) each
 
     def share(self, part: float) -> Driven:
         """Return a share of speed and loads."""

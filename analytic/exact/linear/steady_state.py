@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -43,6 +43,8 @@ class SteadyState:
         How far the load turns the tip's section out of its upright [rad], as of `SpinUpResponse`.
     error : float
         Its change over the length by the last refinement.
+    steady : SteadyBlade
+        Its discretization.
     """
 
     blade: Blade
@@ -55,27 +57,27 @@ class SteadyState:
     tip: FloatArray
     twist: float
     error: float
-    _steady: SteadyBlade
+    steady: SteadyBlade = field(repr=False)
 
     def axis(self, x: ArrayLike) -> FloatArray:
         """Return the places of the points `x` [m] of the line, as `tip`, (points, 3)."""
         at = points_of_beam("x", x, self.blade.length)
         return np.asarray(
-            self.blade.length * self._steady.model.places(self._steady.equilibrium[None], at)[0]
+            self.blade.length * self.steady.model.places(self.steady.equilibrium[None], at)[0]
         )
 
     def state(self, x: ArrayLike) -> BladeState:
         """Return the state at the material points `x` [m], to start a motion from."""
-        q = self._steady.equilibrium
-        return state_of(self.blade, self._steady.model, q, 0.0 * q, x)
+        q = self.steady.equilibrium
+        return state_of(self.blade, self.steady.model, q, 0.0 * q, x)
 
     def section_loads(self, x: ArrayLike) -> SectionLoads:
         """Return the sections at `x` [m], and force and moment in them, each (points, 3)."""
         at = points_of_beam("x", x, self.blade.length)
-        state = self._steady.equilibrium[None]
+        state = self.steady.equilibrium[None]
         still = np.zeros_like(state)
-        (place,), (section,) = self._steady.model.standing(state, at)
-        (force,), (moment,) = self._steady.section_loads(at, state, still, still)
+        (place,), (section,) = self.steady.model.standing(state, at)
+        (force,), (moment,) = self.steady.section_loads(at, state, still, still)
         standing, loads = (place, section), (force, moment)
         return in_newtons(self.blade, at, standing, loads, self.theory.trapeze)
 
@@ -148,7 +150,7 @@ def steady_state(
     )
     return SteadyState(
         blade=blade, omega=omega, theory=theory, force=pull.force, moment=pull.moment,
-        gravity=gravity, loads=loads, tip=blade.length * steady.tip, error=error, _steady=steady,
+        gravity=gravity, loads=loads, tip=blade.length * steady.tip, error=error, steady=steady,
         twist=float(steady.model.tip_turn(steady.equilibrium[None])[0]),
     )  # fmt: skip
 

@@ -1,0 +1,166 @@
+"""How an exact answer changes with the numbers of its blade."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..blade import Blade
+from ..exact.linear.families import LinearModes
+from ..exact.linear.steady_state import SteadyState
+from ..input_checks import shown
+from ..theory import Theory
+from ..threads import one_thread
+from .frequencies import FrequencyDerivatives
+from .parameters import Parameter, parameters_of
+from .steady import SteadyDerivatives
+
+Answer = LinearModes | SteadyState
+
+
+class Derivatives(Protocol):
+    """Derivatives of the numbers of an answer."""
+
+    parameters: dict[str, Parameter]
+    outputs: tuple[str, ...]
+    units: tuple[str, ...]
+    values: FloatArray
+
+    def __init__(self, answer: Any) -> None:
+        """Take the answer's own tangent."""
+
+    def to(self, parameter: Parameter) -> FloatArray:
+        """Return those of all numbers to one of `parameters`, in their units."""
+
+
+_KINDS: dict[type, type[Derivatives]] = {
+    LinearModes: FrequencyDerivatives,
+    SteadyState: SteadyDerivatives,
+}
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """How the numbers of an answer change with those of its blade.
+
+    Attributes
+    ----------
+    answer : LinearModes or SteadyState
+    outputs : tuple of str
+        Its numbers: names of modes; "tip x" and so on in the frame of `steady_state`, "twist",
+        and "root force x" and "root moment x" with which the blade acts on the clamp.
+    units : tuple of str
+        Of the outputs.
+    values : ndarray (outputs,)
+    parameters : tuple of Parameter
+    derivatives : ndarray (outputs, parameters)
+        Of the outputs to the parameters, in their units.
+    """
+
+    answer: Answer
+    outputs: tuple[str, ...]
+    units: tuple[str, ...]
+    values: FloatArray
+    parameters: tuple[Parameter, ...] = field(repr=False)
+    derivatives: FloatArray = field(repr=False)
+
+    @property
+    def blade(self) -> Blade:
+        """The answer's blade."""
+        return self.answer.blade
+
+    @property
+    def omega(self) -> float:
+        """Its rotation speed [rad/s]."""
+        return self.answer.omega
+
+    @property
+    def theory(self) -> Theory:
+        """Its theory."""
+        return self.answer.theory
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return tuple(one.name for one in self.parameters)
+
+    @property
+    def relative(self) -> FloatArray:
+        """Relative change of an output over that of a parameter, p/y ∂y/∂p.
+
+        Zero where the parameter is zero, not a number where the output is, (outputs, parameters).
+        """
+        now = np.array([one.value for one in self.parameters])
+        values = np.where(self.values == 0.0, np.nan, self.values)
+        return np.asarray(self.derivatives * now / values[:, None])
+
+    def of(self, output: str, parameter: str) -> float:
+        """Return one derivative by names."""
+        for name, among in ((output, self.outputs), (parameter, self.names)):
+            if name not in among:
+                raise ValueError(f"there is no {shown(name)}: known are {', '.join(among)}")
+        row, column = self.outputs.index(output), self.names.index(parameter)
+        return float(self.derivatives[row, column])
+
+
+@one_thread
+def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sensitivity:
+    """Return how an exact answer changes with the numbers of its blade.
+
+    Frequencies of modes, or tip, twist and root loads of a steady state; by the answer's own
+    tangent, at the same speed and under the same loads. Nothing is solved anew. Modes in the plane
+    of bending alone where the section out of it is unknown.
+
+    Parameters
+    ----------
+    answer : LinearModes or SteadyState
+        Of `linear_modes`, where a mode that meets another at its frequency has no derivative; or of
+        `steady_state`.
+    parameters : iterable of str, optional
+        Names out of `parameters_of`; all, unless given.
+
+    Raises
+    ------
+    ValueError
+        If the blade has no parameter of a name.
+
+    Examples
+    --------
+    >>> from analytic import Beam, Theory, linear_modes
+    >>> from analytic.sensitivity import sensitivity
+    >>> modes = linear_modes(Beam.reference(), omega=6.0, theory=Theory(extension=False))
+    >>> found = sensitivity(modes, ["EI3", "m"])
+    >>> print(found.relative.round(3))
+    [[ 0.341 -0.341]
+     [ 0.314 -0.314]
+     [ 0.407 -0.407]]
+    """
+    if isinstance(parameters, str):
+        raise TypeError(f"parameters must be names, as [{parameters!r}], got {parameters!r}")
+    kind = _KINDS.get(type(answer))
+    if kind is None:
+        raise TypeError(
+            f"answer must be what linear_modes or steady_state returns, got {shown(answer)}"
+        )
+    found = kind(answer)
+    known = {name: found.parameters[name] for name in parameters_of(answer.blade, answer.theory)}
+    names = list(known if parameters is None else parameters)
+    if unknown := [name for name in names if name not in known]:
+        raise ValueError(
+            f"the blade has no parameter {', '.join(map(shown, unknown))}; it has "
+            f"{', '.join(known)}"
+        )
+    several = [known[name] for name in names]
+    columns = [found.to(one) for one in several]
+    return Sensitivity(
+        answer=answer,
+        outputs=found.outputs,
+        units=found.units,
+        values=found.values,
+        parameters=tuple(several),
+        derivatives=np.reshape(columns, (len(several), len(found.outputs))).T,
+    )

@@ -1,0 +1,129 @@
+"""Derivatives of a steady state, its tip, twist and root loads, to the numbers of a blade.
+
+Each of these numbers y is the change of a potential with something else: of the tip's place with a
+force there, of the root loads with a motion of the clamp. So ∂y/∂p is the change, along that force
+or motion and the strains that go with it, of ∂Π/∂p at strains as they are. Where loads have no
+potential, as those that follow the sections or moments have none, and where the unloaded line
+moves, it is of the residual: ∂y/∂p less λ·∂r/∂p, with λ of the tangent.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..blade import Blade
+from ..exact.continuum.rotation import SteadyBlade
+from ..exact.continuum.space import SpaceContinuum
+from ..exact.continuum.state import Driven
+from ..exact.linear.steady_state import SteadyState
+from ..lazily import spatial
+from .energies import AROUND, SWING, Energies, States, difference
+from .frozen import frozen
+from .parameters import Parameter
+
+_STEP = 1e-5  # of coordinates, which are of the size of one
+_CHANGE = 1e-4  # of a parameter over its size, where residuals are compared
+_ROUND_OFF = 1e-12  # without dimensions
+_CLAMP = np.zeros(1)
+
+
+class SteadyDerivatives:
+    """Derivatives of the tip's place, its twist, and force and moment at the root."""
+
+    outputs: tuple[str, ...] = (
+        *(f"tip {axis}" for axis in "xyz"), "twist",
+        *(f"root {kind} {axis}" for kind in ("force", "moment") for axis in "xyz"),
+    )  # fmt: skip
+    units: tuple[str, ...] = ("m",) * 3 + ("rad",) + ("N",) * 3 + ("N m",) * 3
+
+    def __init__(self, state: SteadyState) -> None:
+        self._blade, self._steady = state.blade, state.steady
+        q = self._steady.equilibrium
+        force = self._blade.bending_stiffness / self._blade.length**2
+        lengths = [self._blade.length] * 3 + [1.0]
+        self._unit = np.array(lengths + [force] * 3 + [force * self._blade.length] * 3)
+        values = _outputs(self._steady, q[None])[0]
+        self.values = self._unit * _without_noise(values)
+        steps = _STEP * np.eye(q.size)
+        gradient = _outputs(self._steady, q + steps) - _outputs(self._steady, q - steps)
+        K = self._steady.linearized.stiffness[0]
+        self._adjoint = np.linalg.solve(K.T, 0.5 / _STEP * gradient)
+        by = self._steady.by()
+        self._potential = not by.follow and (by.push is None or not by.push[2].any())
+        ways = [self._along(k, way) for k, way in enumerate(self._adjoint.T)]
+        squares = np.stack([np.outer(way, q) + np.outer(q, way) for way in self._adjoint.T])
+        self._sums = Energies(self._steady.model, self._blade, state.theory, ways, squares)
+        self.parameters = self._sums.parameters
+
+    def _along(self, k: int, way: FloatArray) -> States:
+        """Return the states around the steady one along what has the output `k` for its force."""
+        model, q, acting = self._steady.model, self._steady.equilibrium, self._steady.by()
+        length = math.sqrt(float(way @ model.functions.stiffness @ way))
+        along, weights = AROUND
+        size = SWING / max(length, 1.0)
+        by = moved(model, acting, k, size * along)
+        none = np.zeros((along.size, q.size))
+        return States(q + np.outer(size * along, way), none, none, by, weights / size)
+
+    def to(self, parameter: Parameter) -> FloatArray:
+        """Return the derivatives of all outputs to a parameter, in their units."""
+        if self._potential and not parameter.moves:
+            slopes = -self._sums.slopes(parameter)
+        else:
+            slopes = difference(parameter, self._anew, _CHANGE)
+        return self._unit * _without_noise(slopes, parameter.size)
+
+    def _anew(self, blade: Blade) -> FloatArray:
+        """Return outputs less the adjoint's virtual work, in another blade at the same strains."""
+        model = SpaceContinuum(frozen(self._steady.model.functions, self._blade, blade))
+        other = replace(self._steady, model=model, given=None)
+        q = self._steady.equilibrium[None]
+        still = np.zeros_like(q)
+        work: FloatArray = other.residual(q, still, still) @ self._adjoint
+        return np.asarray((_outputs(other, q) - work)[0])
+
+
+def moved(model: SpaceContinuum, acting: Driven, output: int, sizes: FloatArray) -> Driven:
+    """Return what drives the blade where a load on the tip or a motion of the clamp is added.
+
+    That of which an output is the force, by `sizes` (samples,).
+    """
+    none = np.zeros((3, sizes.size))
+    shift, turn, pull = none.copy(), none.copy(), none.copy()
+    for kind, first in ((pull, 0), (shift, 4), (turn, 7)):
+        if first <= output < first + 3:
+            kind[output - first] = sizes
+    back = spatial.transform.Rotation.from_rotvec(-turn.T).as_matrix()
+    W, W_dot, hub = model.clamp(acting)
+    arms = tuple(
+        np.einsum("sij,js->is", back, np.broadcast_to(one[..., 0], shift.shape) + more)[..., None]
+        for one, more in ((W, none), (W_dot, none), (hub, shift))
+    )
+    push = np.zeros((3, 3, sizes.size, model.points.size))
+    if acting.push is not None:
+        push += np.einsum("sij,kjsp->kisp", back, np.broadcast_to(acting.push, push.shape))
+    push[0] += np.multiply.outer(pull, model.outboard["tip"])
+    return acting._replace(push=push, clamp=arms)
+
+
+def _without_noise(values: FloatArray, size: float = 1.0) -> FloatArray:
+    """Return values, or derivatives to a number of a size, with zeros for round-off."""
+    return np.where(np.abs(values) * size < _ROUND_OFF, 0.0, values)
+
+
+def _outputs(steady: SteadyBlade, q: FloatArray) -> FloatArray:
+    """Return place and twist of the tip, and force and moment at the root, (samples, 10).
+
+    All without dimensions, and in the frame of the clamp.
+    """
+    model, still = steady.model, np.zeros_like(q)
+    sections = model.standing(q, _CLAMP)[1][:, 0]
+    loads = (
+        np.einsum("sij,sj->si", sections, one[:, 0])
+        for one in steady.section_loads(_CLAMP, q, still, still)
+    )
+    return np.hstack((model.tip(q), model.tip_turn(q)[:, None], *loads))
