@@ -21,7 +21,8 @@ SWING = 5e-3
 AROUND = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 """Steps of a central difference, and weights, of which the fourth power is left."""
 _AHEAD = np.array([0.0, 1.0, 2.0]), np.array([-1.5, 2.0, -0.5])
-_CHANGE = 3e-3  # of a parameter over its size: of the fourth power is left
+_BOTH = np.array([-1.0, 1.0]), np.array([-0.5, 0.5])
+_CHANGE = 3e-4  # of a parameter over its size: 1e-7 of its square is left
 
 
 class States(NamedTuple):
@@ -40,7 +41,7 @@ def difference(
     """Return the derivative of values of a blade to a parameter, by a change over its size."""
     change = size * parameter.size
     ahead = parameter.value - 2.0 * change < parameter.least
-    steps, weights = _AHEAD if ahead else AROUND
+    steps, weights = _AHEAD if ahead else _BOTH
     several = [values(parameter.changed(parameter.value + change * step)) for step in steps]
     return np.asarray(np.tensordot(weights, several, 1) / change)
 
