@@ -21,7 +21,7 @@ from analytic.exact.linear.families import FAMILIES, LinearModes
 from analytic.exact.linear.steady_state import SteadyState
 from analytic.exact.stability.growth import GrowthOutOfPlane
 from analytic.reduced.tables import PaperTable
-from analytic.sensitivity import Sensitivity
+from analytic.sensitivity import Fit, Sensitivity
 from analytic.spin_up.quiet import QuietRamps
 from analytic.theory import Theory
 
@@ -131,6 +131,24 @@ COLUMNS: dict[type, tuple[dict[str, Column], tuple[str, ...]]] = {
             "relative": _named("relative", ("output", "parameter"), "the same of relative changes"),
         },
         ("omega",),
+    ),
+    Fit: (
+        {
+            "parameter": ("parameter", "number of the blade", lambda result: [*result.names]),
+            "unit": _each("parameter", "unit", "its unit", str),
+            **_columns(
+                "parameter", before="before", values="after", deviations="standard deviation"
+            ),
+            "covariance": _named("covariance", ("parameter", "with"), "covariance of the values"),
+            "measured": ("measured", "what was measured", lambda result: [*result.labels]),
+            "value": ("measured", "its value", lambda r: [one.value for one in r.measured]),
+            "measured_unit": ("measured", "its unit", lambda r: [one.unit for one in r.measured]),
+            **_columns(
+                "measured", computed="what the blade has",
+                residuals="computed less measured, over standard deviations",
+            ),
+        },
+        ("misfit", "unknown"),
     ),
     LinearModes: (
         {"mode": _NAMES} | _FREQUENCY | {

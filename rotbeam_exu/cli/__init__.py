@@ -40,7 +40,7 @@ _COMMANDS = {
     "converge": "sweep", "compare": "paper", "figure": "paper", "table": "paper",
     "explore": "explore", "animate": "animate", "verify": "judge", "kit": "judge",
     "judge": "judge", "schema": "doctor", "doctor": "doctor", "blade": "blade",
-    "report": "report", "sensitivity": "sensitivity",
+    "report": "report", "sensitivity": "sensitivity", "fit": "fit",
 }  # fmt: skip
 """Modules of the commands, in the order of the work; each is imported when it is called."""
 

@@ -236,3 +236,19 @@ def one_of(loads: Sequence[Load]) -> Load:
         got = " and ".join(f"--{option_of(type(one))}" for one in loads) or "none"
         raise ValueError(f"give one load, {', '.join(others)} or {last}, got {got}")
     return loads[0]
+
+
+def deviations_of(option: str, pairs: Sequence[str]) -> dict[str, float]:
+    """Return the standard deviations of an option by name, of pairs as EI3=0.05."""
+    found: dict[str, float] = {}
+    for pair in pairs:
+        name, _, value = pair.partition("=")
+        if name in found:
+            raise ValueError(f"--{option} has {name} twice")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            raise ValueError(
+                f"--{option} takes name=deviation, as EI3=0.05, got {pair!r}"
+            ) from None
+    return found

@@ -142,13 +142,14 @@ def uses(*names: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
 
     def wrapped(command: Callable[..., None]) -> Callable[..., None]:
         @wraps(command)
-        def with_request(*, config: Path | None = None, **arguments: Any) -> None:
+        def with_request(*files: Any, config: Path | None = None, **arguments: Any) -> None:
             mine = {word: arguments.pop(word) for word in words if word in arguments}
-            command(_request(config, _configured(config, keys), mine), **arguments)
+            command(_request(config, _configured(config, keys), mine), *files, **arguments)
 
         of_command = inspect.signature(command)
         _, *others = of_command.parameters.values()
-        signature = of_command.replace(parameters=[*options, *others])
+        several = sorted([*options, *others], key=lambda one: one.kind)  # files come first
+        signature = of_command.replace(parameters=several)
         vars(with_request)["__signature__"] = signature
         with_request.__annotations__ = {n: of.annotation for n, of in signature.parameters.items()}
         return with_request

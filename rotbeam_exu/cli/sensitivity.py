@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +15,7 @@ from analytic.exact.linear.steady_state import SteadyState
 from analytic.input_checks import rotation_speed, whole_number
 
 from .job import Flag, Results
-from .options import Number, Whole
+from .options import Number, Whole, deviations_of
 from .output import bar, formatted, print_columns, print_text
 from .request import Request, uses
 
@@ -68,14 +68,14 @@ def sensitivity(
     --------
     $ rotbeam sensitivity --omega 6
     $ rotbeam sensitivity --omega 6 --scatter EI3=0.05 m=0.03
-    $ rotbeam sensitivity --steady --config models/blades/nrel_5mw.toml --omega 1.2
+    $ rotbeam sensitivity --steady --omega 6 --section rectangle
     $ rotbeam sensitivity --omega 6 --section rectangle --count 3 -o results
     """
     from analytic.sensitivity import sensitivity as sensitivity_of
 
     speed = rotation_speed(request.values.get("omega", 0.0) if omega is None else omega)
     whole_number("rows", rows, least=0)
-    deviations = _deviations(scatter)
+    deviations = deviations_of("scatter", scatter)
     if request.loads and not steady:
         raise ValueError(
             f"{request.config or 'the command'} has [[loads]], which act on the steady state: add "
@@ -100,20 +100,6 @@ def sensitivity(
         )
     if deviations:
         _print_spread(found, deviations, math.inf if length is None else length)
-
-
-def _deviations(pairs: Sequence[str]) -> dict[str, float]:
-    """Return the deviations of --scatter by name."""
-    found: dict[str, float] = {}
-    for pair in pairs:
-        name, _, value = pair.partition("=")
-        if name in found:
-            raise ValueError(f"--scatter has {name} twice")
-        try:
-            found[name] = float(value)
-        except ValueError:
-            raise ValueError(f"--scatter takes name=deviation, as EI3=0.05, got {pair!r}") from None
-    return found
 
 
 def _print_spread(found: Sensitivity, scatter: Mapping[str, float], length: float) -> None:

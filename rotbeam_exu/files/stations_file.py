@@ -28,6 +28,9 @@ _UNITS = {
 }  # fmt: skip
 _FACTORS = {
     "s": {"s": 1.0, "ms": 1e-3},
+    "rad/s": {"rad/s": 1.0, "Hz": math.tau, "rpm": math.tau / 60.0},
+    "1": {"%": 0.01, "1": 1.0},
+    "N m": {"N m": 1.0, "kN m": 1e3, "MN m": 1e6},
     "N/m": {"N/m": 1.0, "kN/m": 1e3, "N/mm": 1e3},
     "N m/m": {"N m/m": 1.0, "N": 1.0, "kN m/m": 1e3, "kN": 1e3},
     "rad": {"rad": 1.0, "deg": math.pi / 180.0},
@@ -102,10 +105,13 @@ def text_of(path: Path) -> str:
         ) from None
 
 
-def columns_of(path: Path, units: Mapping[str, str], example: str) -> dict[str, FloatArray]:
+def columns_of(
+    path: Path, units: Mapping[str, str], example: str, text: str = ""
+) -> dict[str, FloatArray]:
     """Return the columns of a CSV in SI by name; refuse what is no table of numbers.
 
-    Names have their `units`; the sentence on a file without a header has an `example` of one.
+    Names have their `units`; the sentence on a file without a header has an `example` of one. One
+    column may be of `text`, without a unit.
     """
     reader = csv.reader(io.StringIO(text_of(path), newline=""))
     try:
@@ -115,7 +121,7 @@ def columns_of(path: Path, units: Mapping[str, str], example: str) -> dict[str, 
     (_, header), *rows = lines or [(1, [])]
     factors = _factors(header, path, units, example)
     if not rows:
-        raise ValueError(f"{path} has a header and no stations: give a row at each of them")
+        raise ValueError(f"{path} has a header and no rows: give a row at each place or instant")
     for number, row in rows:
         if len(row) != len(header):
             raise ValueError(
@@ -123,7 +129,9 @@ def columns_of(path: Path, units: Mapping[str, str], example: str) -> dict[str, 
                 "decimal point, as 1.5, where it has a decimal comma"
             )
     return {
-        name: factor * np.array([_number(row[place], name, n, path) for n, row in rows])
+        name: np.array([row[place].strip() for _, row in rows])
+        if name == text
+        else factor * np.array([_number(row[place], name, n, path) for n, row in rows])
         for place, (name, factor) in enumerate(factors.items())
     }
 
@@ -153,7 +161,7 @@ def _factors(
             raise ValueError(f"{path}: unknown column {shown(name)}; known are {', '.join(units)}")
         if name in factors:
             raise ValueError(f"{path} has two columns {name}: keep one")
-        by_unit = _FACTORS[units[name]]
+        by_unit = _FACTORS[units[name]] if units[name] else {"": 1.0}
         unit = " ".join(written.replace("²", "^2").replace("*", " ").split())
         if unit not in by_unit:
             raise ValueError(

@@ -79,7 +79,7 @@ RATIO = f"{TOML}[blade.damping]\nratio = 0.02\n"
         ("0.4", "1e999", "line 3 has '1e999' in column EI"),
         ("0.4", "5" * 200_000, r"line 3 is no row of a table: field larger"),
         (PLANAR, "", "begins with no title of a known column"),
-        (PLANAR, PLANAR.split("\n", maxsplit=1)[0], "has a header and no stations"),
+        (PLANAR, PLANAR.split("\n", maxsplit=1)[0], "has a header and no rows"),
         (",", ";", "no title of a known column: give it a header, .* separated by commas"),
     ],
 )

@@ -1,0 +1,175 @@
+"""What is measured of a blade, and what an exact answer has for it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from ..arrays import FloatArray
+from ..blade import Blade
+from ..exact.linear.modes import linear_modes
+from ..exact.linear.steady_state import steady_state
+from ..input_checks import finite_number, positive, rotation_speed, shown, whole_number
+from ..loads import Load, loads_at_once
+from ..theory import Theory
+from .derivatives import sensitivity
+from .steady import SteadyDerivatives
+
+_FIRST, _MOST = 6, 24  # modes among which a measured one is sought
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measured:
+    """A number that was measured.
+
+    Parameters
+    ----------
+    value : float
+    omega : float
+        Rotation speed [rad/s] at which it was.
+    deviation : float, optional
+        Standard deviation, in the value's unit.
+    """
+
+    value: float
+    omega: float = 0.0
+    deviation: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "value", finite_number("value", self.value))
+        object.__setattr__(self, "omega", rotation_speed(self.omega))
+        if self.deviation is not None:
+            object.__setattr__(self, "deviation", positive("deviation", self.deviation))
+
+    @property
+    def label(self) -> str:
+        """What was measured, and where."""
+        raise NotImplementedError
+
+    @property
+    def unit(self) -> str:
+        """Unit of the value."""
+        raise NotImplementedError
+
+    @property
+    def together(self) -> tuple[Any, ...]:
+        """The same for numbers that one answer has."""
+        return type(self), self.omega
+
+    @staticmethod
+    def computed(
+        several: Sequence[Any], blade: Blade, theory: Theory, names: Sequence[str]
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return what a blade has for numbers of one answer, and its derivatives, (n, names)."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredFrequency(Measured):
+    """A natural frequency [rad/s], of a mode by its name or by its number in `linear_modes`.
+
+    Examples
+    --------
+    >>> from analytic.sensitivity import MeasuredFrequency
+    >>> print(MeasuredFrequency(mode="lag 1", value=3.73, omega=6.0).label)
+    lag 1 at 6 rad/s
+    """
+
+    mode: str | int
+    unit: ClassVar[str] = "rad/s"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        positive("value", self.value)
+        if not isinstance(self.mode, str):
+            whole_number("mode", self.mode, most=_MOST)
+
+    @property
+    def label(self) -> str:
+        """The mode and the speed."""
+        name = self.mode if isinstance(self.mode, str) else f"mode {self.mode}"
+        return f"{name} at {self.omega:g} rad/s"
+
+    @staticmethod
+    def computed(
+        several: Sequence[Any], blade: Blade, theory: Theory, names: Sequence[str]
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the frequencies and their derivatives."""
+        asked = [one.mode for one in several]
+        count = max([_FIRST, *(mode for mode in asked if not isinstance(mode, str))])
+        while True:
+            modes = linear_modes(
+                blade, several[0].omega, count, theory=theory, functions=max(20, 2 * count)
+            )
+            missing = [mode for mode in asked if isinstance(mode, str) and mode not in modes.names]
+            if not missing:
+                break
+            if count == _MOST:
+                raise ValueError(
+                    f"the lowest {_MOST} modes at {several[0].omega:g} rad/s have none of the name "
+                    f"{shown(missing[0])}; they are {', '.join(modes.names)}"
+                )
+            count = min(2 * count, _MOST)
+        found = sensitivity(modes, names)
+        rows = [modes.names.index(m) if isinstance(m, str) else m - 1 for m in asked]
+        return found.values[rows], found.derivatives[rows]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredState(Measured):
+    """A number of the steady state under loads: the tip's place, its twist, a load at the root.
+
+    Parameters
+    ----------
+    output : str
+        As of `Sensitivity`: "tip z", "twist", "root moment y".
+    loads : sequence of loads
+        As of `steady_state`; a `PointLoad` is a static pull.
+
+    Examples
+    --------
+    >>> from analytic import PointLoad
+    >>> from analytic.sensitivity import MeasuredState
+    >>> pull = PointLoad(force=(0.0, 0.0, 10.0))
+    >>> print(MeasuredState(output="tip z", value=0.31, loads=[pull], deviation=0.002).unit)
+    m
+    """
+
+    output: str
+    loads: Sequence[Load] = ()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        object.__setattr__(self, "loads", loads_at_once(self.loads))
+        if self.output not in SteadyDerivatives.outputs:
+            raise ValueError(
+                f"output must be one of {', '.join(SteadyDerivatives.outputs)}, got "
+                f"{shown(self.output)}"
+            )
+
+    @property
+    def label(self) -> str:
+        """The number and the speed."""
+        return f"{self.output} at {self.omega:g} rad/s"
+
+    @property
+    def unit(self) -> str:
+        """Unit of the number."""
+        return SteadyDerivatives.units[SteadyDerivatives.outputs.index(self.output)]
+
+    @property
+    def together(self) -> tuple[Any, ...]:
+        """The same for numbers of one speed and the same loads."""
+        return *super().together, self.loads
+
+    @staticmethod
+    def computed(
+        several: Sequence[Any], blade: Blade, theory: Theory, names: Sequence[str]
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the numbers and their derivatives."""
+        first = several[0]
+        state = steady_state(blade, first.omega, loads=first.loads, theory=theory)
+        found = sensitivity(state, names)
+        rows = [found.outputs.index(one.output) for one in several]
+        return found.values[rows], found.derivatives[rows]

@@ -1,0 +1,72 @@
+"""Measured numbers of a blade from a CSV: natural frequencies, or a number of steady states."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from analytic import PointLoad
+from analytic.sensitivity import Measured, MeasuredFrequency, MeasuredState
+from analytic.sensitivity.steady import SteadyDerivatives
+
+from .stations_file import columns_of
+
+_FORCES = ("fx", "fy", "fz")
+_STATES = {
+    output.replace(" ", "_"): unit
+    for output, unit in zip(SteadyDerivatives.outputs, SteadyDerivatives.units, strict=True)
+}
+_EXAMPLE = "mode,omega [rpm],frequency [Hz],deviation [%]"
+
+
+def measured_of(path: Path) -> list[Measured]:
+    """Return what a CSV file has as measured: of one kind, a row each.
+
+    Natural frequencies have the columns `mode`, `frequency` and, if known, `omega` and `deviation`.
+    Numbers of steady states have one column of `tip_x`, `tip_y`, `tip_z`, `twist`, `root_force_x`
+    and so on, and a force `fx`, `fy`, `fz` at the tip, or at a place `x`. Each has
+    its unit behind it, as `frequency [Hz]`; `deviation [%]` is of the value.
+
+    Raises
+    ------
+    ValueError
+        If a column is missing or unknown, or its unit, or a cell is no number.
+    """
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no file {path}")
+    units = {"mode": "", "frequency": "rad/s", **_STATES, "omega": "rad/s", "deviation": "1"}
+    units |= {"x": "m"} | dict.fromkeys(_FORCES, "N")
+    columns = columns_of(path, units, _EXAMPLE, text="mode")
+    kinds = ("frequency", *_STATES)
+    measured = [name for name in kinds if name in columns]
+    if len(measured) != 1:
+        raise ValueError(
+            f"{path} has {len(measured)} columns of what was measured: give one of "
+            f"{', '.join(kinds)}, and other kinds in files of their own"
+        )
+    (kind,) = measured
+    if kind == "frequency" and "mode" not in columns:
+        raise ValueError(f"{path} lacks the column mode, as lag 1 or its number")
+    of_kind = ("mode",) if kind == "frequency" else ("x", *_FORCES)
+    belong = {kind, "omega", "deviation", *of_kind}
+    if astray := sorted(columns.keys() - belong):
+        raise ValueError(f"{path} has {', '.join(astray)}, which {kind} does not use: take it out")
+    return [
+        _row({name: of[k].item() for name, of in columns.items()}, kind)
+        for k in range(columns[kind].size)
+    ]
+
+
+def _row(cells: dict[str, Any], kind: str) -> Measured:
+    value, share = cells[kind], cells.get("deviation")
+    numbers: dict[str, Any] = {
+        "value": value,
+        "omega": cells.get("omega", 0.0),
+        "deviation": None if share is None else share * abs(value),
+    }
+    if kind == "frequency":
+        mode = cells["mode"]
+        return MeasuredFrequency(mode=int(mode) if mode.isdecimal() else mode, **numbers)
+    force = tuple(cells.get(name, 0.0) for name in _FORCES)
+    loads = [PointLoad(force=force, position=cells.get("x"))] if any(force) else []
+    return MeasuredState(output=kind.replace("_", " "), loads=loads, **numbers)
