@@ -11,7 +11,7 @@ import analytic
 import rotbeam_exu
 from analytic import Beam, Blade, Damping, Rectangle, Section, SpinUp, Theory, TipForce
 from analytic.exact.free.stability_limit import StabilityLimit, Tongue
-from analytic.sensitivity import sensitivity
+from analytic.sensitivity import MeasuredFrequency, fit, sensitivity
 from rotbeam_exu import dataset_of, load, save, steady_oscillation
 from rotbeam_exu.datasets import _described, frames_of
 
@@ -61,6 +61,7 @@ MADE = {
     ),
     "BackboneCurve": lambda: analytic.backbone_curve(BEAM, 6.0, up_to=0.1),
     "LinearModes": lambda: analytic.linear_modes(BEAM, 6.0),
+    "Fit": lambda: fit(BEAM, [MeasuredFrequency(mode="lag 1", value=3.0)], ["EI3"]),
     "Sensitivity": lambda: sensitivity(analytic.linear_modes(BEAM, 6.0)),
     "SteadyState": lambda: analytic.steady_state(TWISTED, 1.0),
     "StateSpace": lambda: analytic.state_space(TWISTED, 1.0, [TipForce(amplitude=1.0)], modes=2),

@@ -23,7 +23,8 @@ from .parameters import Parameter, parameters_of
 
 _LEAST = 0.02  # of a stiffness or a mass, to which a fit may go
 _UNKNOWN = 1.0  # standard deviation over a parameter's size, of a direction that data do not tell
-_ASSUMED = 1e-3  # of the values, where no deviations are given; all are taken to be off alike
+_ASSUMED, _LEAST_SCATTER = 1e-3, 1e-7  # of the values, where no deviations are given
+_ROUNDS = 3  # in which their scatter settles
 _HELD = 0.1  # 1/standard deviation over the size, by which what is unknown stays near
 _SMALL = 0.1  # part of a direction over the largest, below which it is not named
 _SETTLED = 0.05  # standard deviations by which one more step would change the fit
@@ -84,7 +85,7 @@ class Fit:
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """What was measured, in words."""
+        """Names of the measured numbers, with their speeds."""
         return tuple(one.label for one in self.measured)
 
 
@@ -218,10 +219,21 @@ class _Problem:
         def slopes(z: FloatArray) -> FloatArray:
             return np.concatenate((self._slopes(z), held))
 
-        solved = optimize.least_squares(
-            residuals, np.zeros(low.size), jac=slopes, bounds=(low, high), max_nfev=60
-        )
-        return np.asarray(solved.x)
+        z: FloatArray = np.zeros(low.size)
+        for _ in range(_ROUNDS):
+            z = optimize.least_squares(residuals, z, jac=slopes, bounds=(low, high), max_nfev=60).x
+            misfit = self._misfit(z)
+            if self._stated or math.isnan(misfit):
+                break
+            # What the data are off by, beside priors that are as given.
+            least = _LEAST_SCATTER * np.abs(self._targets)
+            self._deviations = np.maximum(misfit * self._deviations, least)
+        return z
+
+    def _misfit(self, z: FloatArray) -> float:
+        residuals = self._residuals(z)
+        beyond = residuals.size - z.size
+        return math.sqrt(residuals @ residuals / beyond) if beyond else math.nan
 
     def _residuals(self, z: FloatArray) -> FloatArray:
         """Return all that is squared."""
@@ -236,9 +248,9 @@ class _Problem:
         """Return the fit, with what the data tell of it."""
         computed, _ = self._answers(z)
         residuals, slopes = self._residuals(z), self._slopes(z)
-        beyond = residuals.size - z.size
-        misfit = math.sqrt(residuals @ residuals / beyond) if beyond else math.nan
-        unit = 1.0 if self._stated else misfit  # one standard deviation
+        misfit = self._misfit(z)
+        share = float(self._deviations[0] / abs(self._targets[0]))
+        unit = math.nan if math.isnan(misfit) and not self._stated else 1.0
         covariance, directions = _covariance(slopes, unit)
         inside = (z > low + 1e-6) & (z < high - 1e-6)
         step = np.linalg.lstsq(slopes[:, inside], -residuals)[0]
@@ -261,8 +273,8 @@ class _Problem:
             covariance=covariance * np.outer(self._sizes, self._sizes),
             measured=self._measured,
             computed=computed,
-            residuals=residuals[: computed.size] / (1.0 if self._stated else misfit or 1.0),
-            misfit=misfit if self._stated else _ASSUMED * misfit,
+            residuals=residuals[: computed.size] * unit,
+            misfit=misfit if self._stated else share * misfit,
             unknown=tuple(_sentence(way, self._before, values) for way in directions),
         )
 

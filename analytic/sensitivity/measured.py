@@ -1,4 +1,4 @@
-"""What is measured of a blade, and what an exact answer has for it."""
+"""Measured numbers of a blade, and what an exact answer has for them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Measured:
 
     @property
     def label(self) -> str:
-        """What was measured, and where."""
+        """Name of the number, with its speed."""
         raise NotImplementedError
 
     @property

@@ -27,7 +27,7 @@ def fit(
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
-    """Print the numbers of a blade that fit what was measured, and how well they are known.
+    """Print the numbers of a blade that fit what was measured.
 
     Least squares with the derivatives of the exact blade, from the blade of the file. Says, too,
     what the data do not tell.

@@ -38,7 +38,7 @@ def sensitivity(
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
-    """Print how frequencies, or tip and root loads, change with the numbers of a blade.
+    """Print what each number does to a blade's frequencies or loads.
 
     Of the exact blade in steady rotation, at a speed that stays. Stiffness, mass, offsets and twist
     of a table at each of its stations, too; those first that change a frequency most.
@@ -78,8 +78,8 @@ def sensitivity(
     deviations = deviations_of("scatter", scatter)
     if request.loads and not steady:
         raise ValueError(
-            f"{request.config or 'the command'} has [[loads]], which act on the steady state: add "
-            "--steady, or leave them out"
+            f"{request.config or 'the command'} has [[loads]], which act on the steady state: "
+            "leave it out, or add --steady"
         )
     settings: Any = {"theory": request.theory, "tolerance": request.tolerance}
     with bar("answer and derivatives"):

@@ -69,7 +69,7 @@ def test_a_steady_state_under_its_loads(call, tmp_path):
     code, _, error = call("sensitivity", *options[:2])
     assert (
         code,
-        "has [[loads]], which act on the steady state: add --steady, or leave" in error,
+        "has [[loads]], which act on the steady state: leave it out, or add --steady" in error,
     ) == (2, True)
 
 
