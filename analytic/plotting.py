@@ -6,6 +6,7 @@ pictures have the reader's own settings; figures of the house are in `rotbeam_ex
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes  # noqa: PLC0414  (for the results)
 
 _DRAWN = 61  # amplitudes, besides the orbits' own
+_BARS = 12
 _FINE = 10  # pieces of what is drawn between two points of a response
 UNSTABLE: Any = {"ls": (0, (2.5, 1.5)), "lw": 0.8}
 DASHES = {"lag": "-", "flap": "--", "torsion": "-.", "axial": ":"}
@@ -114,3 +116,14 @@ def free_place(omegas: FloatArray, frequencies: FloatArray, order: int, top: flo
         if not np.any((modes > order * at - 0.005 * top) & (modes < order * at + 0.05 * top)):
             return float(at)
     return high
+
+
+def tornado(names: Sequence[str], parts: FloatArray, label: str, ax: Axes | None) -> Axes:
+    """Draw parts as bars, the largest on top, up to 12; return the axes."""
+    ax = axes_or_new(ax)
+    kept = np.argsort(-np.abs(parts), kind="stable")[:_BARS][::-1]
+    ax.barh([names[k] for k in kept], parts[kept], height=0.7)
+    ax.axvline(0.0, color="0.3", lw=0.6)
+    ax.set(xlabel=label)
+    ax.tick_params(axis="y", length=0.0)
+    return ax

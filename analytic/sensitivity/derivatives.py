@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -13,11 +13,15 @@ from ..blade import Blade
 from ..exact.linear.families import LinearModes
 from ..exact.linear.steady_state import SteadyState
 from ..input_checks import shown
+from ..plotting import tornado
 from ..theory import Theory
 from ..threads import one_thread
 from .frequencies import FrequencyDerivatives
 from .parameters import Parameter, parameters_of
 from .steady import SteadyDerivatives
+
+if TYPE_CHECKING:
+    from ..plotting import Axes
 
 Answer = LinearModes | SteadyState
 
@@ -59,6 +63,15 @@ class Sensitivity:
     parameters : tuple of Parameter
     derivatives : ndarray (outputs, parameters)
         Of the outputs to the parameters, in their units.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> from analytic.sensitivity import sensitivity
+    >>> found = sensitivity(linear_modes(Beam.reference(), omega=6.0, count=1))
+    >>> print(f"{found.of('lag 1', 'hub_radius'):.3f} rad/s per m")
+    0.920 rad/s per m
+    >>> axes = found.plot()
     """
 
     answer: Answer
@@ -100,11 +113,33 @@ class Sensitivity:
 
     def of(self, output: str, parameter: str) -> float:
         """Return one derivative by names."""
-        for name, among in ((output, self.outputs), (parameter, self.names)):
-            if name not in among:
-                raise ValueError(f"there is no {shown(name)}: known are {', '.join(among)}")
-        row, column = self.outputs.index(output), self.names.index(parameter)
+        row, column = place_of(output, self.outputs), place_of(parameter, self.names)
         return float(self.derivatives[row, column])
+
+    def plot(self, output: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draw what a small change of each parameter does to an output, the largest first.
+
+        One percent, one degree of an angle, or a small part of the length, as `Parameter.step`.
+
+        Parameters
+        ----------
+        output : str, optional
+            Its name; the first, unless given.
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+        """
+        row = place_of(output, self.outputs)
+        names = [f"{one.name} {one.change}" for one in self.parameters]
+        changes = self.derivatives[row] * [one.step for one in self.parameters]
+        label = f"change of {self.outputs[row]} [{self.units[row]}]"
+        return tornado(names, changes, label, ax)
+
+
+def place_of(name: str | None, among: Sequence[str]) -> int:
+    """Return the place of a name among others, of None the first."""
+    if name is not None and name not in among:
+        raise ValueError(f"there is no {shown(name)}: known are {', '.join(among)}")
+    return 0 if name is None else list(among).index(name)
 
 
 @one_thread

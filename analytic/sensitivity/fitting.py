@@ -298,7 +298,9 @@ def _sentence(way: FloatArray, parameters: Sequence[Parameter], values: FloatArr
     way = way * np.where(scaled, sizes / np.where(scaled, values, 1.0), 1.0)
     way = way / way[np.argmax(np.abs(way))]
     named = [k for k in np.argsort(-np.abs(way)) if abs(way[k]) > _SMALL]
-    changes = [_change(parameters[k], float(way[k])) for k in sorted(named)]
+    changes = [
+        f"{parameters[k].name} {parameters[k].changed_by(float(way[k]))}" for k in sorted(named)
+    ]
     sentence = f"{' with '.join(changes)}: the data do not tell"
     both = [way[k] for k in named]
     alike = len(both) == 2 and all(parameters[k].unit == "1" for k in named)
@@ -306,15 +308,6 @@ def _sentence(way: FloatArray, parameters: Sequence[Parameter], values: FloatArr
         kind = "ratio" if both[1] > 0.0 else "product"
         sentence += f"; they know their {kind} alone"
     return sentence
-
-
-def _change(parameter: Parameter, share: float) -> str:
-    step = share * parameter.step
-    if parameter.unit == "rad":
-        return f"{parameter.name} {math.degrees(step):+.2g} deg"
-    if parameter.unit == "m":
-        return f"{parameter.name} {step:+.2g} m"
-    return f"{parameter.name} {share:+.2g} %"
 
 
 def _measured(measured: Iterable[Measured]) -> tuple[Measured, ...]:

@@ -64,6 +64,19 @@ class Parameter:
         """A small change: of an angle a degree, else a hundredth of the size."""
         return math.radians(1.0) if self.unit == "rad" else 0.01 * self.size
 
+    @property
+    def change(self) -> str:
+        """The same in words, as "+1 %"."""
+        return self.changed_by(1.0)
+
+    def changed_by(self, steps: float) -> str:
+        """Return a change by some steps in words."""
+        if self.unit == "rad":
+            return f"{math.degrees(steps * self.step):+.3g} deg"
+        if self.unit == "m":
+            return f"{steps * self.step:+.3g} m"
+        return f"{steps:+.2g} %"
+
 
 def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
     """Return the parameters of a blade by name, those of its stations last.

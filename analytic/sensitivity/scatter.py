@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,15 +13,22 @@ from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.rotation import SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
+from ..exact.linear.campbell import Campbell
 from ..exact.linear.families import LinearModes, modes_of
+from ..exact.linear.modes import linear_modes
 from ..input_checks import not_negative, positive, shown, whole_number
 from ..lazily import stats
+from ..plotting import tornado
 from ..threads import one_thread
-from .derivatives import Answer, Sensitivity
+from .derivatives import Answer, Sensitivity, place_of, sensitivity
 from .frequencies import in_space, require_modes
 from .frozen import frozen
 from .parameters import Parameter, parameters_of
 
+if TYPE_CHECKING:
+    from ..plotting import Axes
+
+_SAME = 1e-5  # between frequencies of a diagram and modes at its speeds
 _FAR = 3.0
 """Deviations at most: farther, a stiffness may lose its sign."""
 
@@ -41,6 +49,13 @@ class Spread:
         Standard deviations, in the units of the outputs.
     shares : ndarray (outputs, parameters)
         Of each parameter in the variance.
+
+    Examples
+    --------
+    >>> from analytic import Beam, linear_modes
+    >>> from analytic.sensitivity import sensitivity, spread
+    >>> found = sensitivity(linear_modes(Beam.reference(), omega=0.0, count=1))
+    >>> axes = spread(found, {"EI3": 0.06, "m": 0.02}).plot()
     """
 
     answer: Answer
@@ -55,6 +70,20 @@ class Spread:
         """Deviations over the values, not a number where a value is zero, (outputs,)."""
         values = np.where(self.values == 0.0, np.nan, self.values)
         return np.asarray(self.deviations / np.abs(values))
+
+    def plot(self, output: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draw what each parameter adds to the deviation of an output, the largest first.
+
+        Parameters
+        ----------
+        output : str, optional
+            Its name; the first, unless given.
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+        """
+        row = place_of(output, self.outputs)
+        parts = self.deviations[row] * np.sqrt(self.shares[row])
+        return tornado(self.parameters, parts, f"± of {self.outputs[row]}", ax)
 
 
 def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = math.inf) -> Spread:
@@ -145,6 +174,50 @@ def _correlations(
             "leave length out"
         )
     return np.asarray(np.exp(-np.abs(x[:, None] - x) / length))
+
+
+@one_thread
+def campbell_spread(
+    diagram: Campbell, scatter: Mapping[str, float], length: float = math.inf
+) -> FloatArray:
+    """Return standard deviations of the frequencies of a Campbell diagram [rad/s].
+
+    To the first order, (speeds, modes); where modes veer, they are of the curves as followed.
+
+    Parameters
+    ----------
+    diagram : Campbell
+    scatter, length
+        As for `spread`.
+
+    Examples
+    --------
+    >>> from analytic import Beam, campbell
+    >>> from analytic.sensitivity import campbell_spread
+    >>> diagram = campbell(Beam.reference(), omegas=[0.0, 6.0], count=1)
+    >>> found = campbell_spread(diagram, {"EI3": 0.06, "m": 0.02})
+    >>> print((found / diagram.frequencies).round(4).ravel())  # tension stiffens for sure
+    [0.0316 0.0216]
+    """
+    if not isinstance(diagram, Campbell):
+        raise TypeError(f"diagram must be what campbell returns, got {shown(diagram)}")
+    blade, theory = diagram.blade, diagram.theory
+    known = parameters_of(blade, theory)
+    names = [*_checked(scatter, tuple(known))]
+    if length != math.inf:
+        names += [one.name for one in known.values() if one.family in names]
+    rows = []
+    for omega, frequencies in zip(diagram.omegas.tolist(), diagram.frequencies, strict=True):
+        count = frequencies.size
+        while True:
+            modes = linear_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
+            if modes.frequencies[-1] > (1.0 - _SAME) * frequencies.max():
+                break
+            count += 2
+        away = np.abs(modes.frequencies / frequencies[:, None] - 1.0)
+        found = spread(sensitivity(modes, names), scatter, length)
+        rows.append(found.deviations[away.argmin(axis=1)])
+    return np.array(rows)
 
 
 @one_thread

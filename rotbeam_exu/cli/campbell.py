@@ -11,6 +11,7 @@ import numpy as np
 from cyclopts import Parameter
 
 import analytic
+from analytic.arrays import FloatArray
 from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from analytic.exact.linear.campbell import Campbell
 
 
-@uses("section", "theory", "tolerance", "motion.omega")
+@uses("section", "theory", "tolerance", "motion.omega", "uncertainty")
 def campbell(
     request: Request,
     *,
@@ -33,6 +34,8 @@ def campbell(
     orders: Whole = 6,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     frequency_max: Number | None = None,
+    scatter: Annotated[tuple[str, ...], Parameter(consume_multiple=True)] = (),
+    length: Number | None = None,
     force: Flag = False,
 ) -> None:
     """Print frequencies over the speed, and where they cross k ω.
@@ -57,6 +60,12 @@ def campbell(
         Folder for netCDF, CSV and the figure; without it none is written.
     frequency_max
         Highest frequency in the figure [rad/s]; without it all are drawn.
+    scatter
+        Standard deviations of numbers of the blade, as EI3=0.05 m=0.03; unless given,
+        [uncertainty] of the file. Prints and draws the scatter of the frequencies.
+    length
+        Correlation length of the scatter along the blade [m]; unless given, all stations are off
+        together.
     force
         Replace a result of other inputs that has the same name.
 
@@ -64,10 +73,12 @@ def campbell(
     --------
     $ rotbeam campbell
     $ rotbeam campbell --section rectangle --frequency-max 80 -o results
+    $ rotbeam campbell --omega-max 6 --points 4 --scatter EI3=0.05 m=0.03
     $ rotbeam campbell --omega-max 8 --points 5 --count 2 -o results
     """
     if frequency_max is not None:
         positive("frequency_max", frequency_max, "rad/s")
+    deviations, correlated = request.scatter(scatter, length)
     blade = request.blade
     usual = 2.0 * request.motion.spin_up.omega
     highest = usual if omega_max is None else omega_max
@@ -77,18 +88,30 @@ def campbell(
         diagram = analytic.campbell(
             blade, speeds, count, orders, theory=request.theory, tolerance=request.tolerance
         )
+    band: FloatArray | None = None
+    if deviations:
+        from analytic.sensitivity import campbell_spread
+
+        with bar("scatter"):
+            band = campbell_spread(diagram, deviations, correlated)
     if out is None:
-        _print(diagram)
+        _print(diagram, band)
         return
     from ..datasets import dataset_of
 
+    data = dataset_of(diagram)
+    if band is not None:
+        about = {"long_name": "standard deviation of the frequency", "units": "rad/s"}
+        data["deviation"] = ("omega", "mode"), band, about
     Results(out=out, force=force).job(
-        f"campbell-{request.section}", dataset_of(diagram), show=lambda *_: _print(diagram),
-        draw=lambda figures, _: figures.campbell(diagram, highest=frequency_max),
+        f"campbell-{request.section}", data, show=lambda *_: _print(diagram, band),
+        draw=lambda figures, _: figures.campbell(
+            diagram, highest=frequency_max, deviations=band
+        ),
     )  # fmt: skip
 
 
-def _print(diagram: Campbell) -> None:
+def _print(diagram: Campbell, band: FloatArray | None) -> None:
     """Print frequencies over speed, and the crossings, with as many digits as are known."""
 
     def column(values: Iterable[float], name: str) -> list[str]:
@@ -102,6 +125,13 @@ def _print(diagram: Campbell) -> None:
             {speed: formatted(diagram.omegas * over / per_second, ".4g")}
             | {name: column(row, name) for name, row in zip(names, rows, strict=True)},
             title=f"Frequencies [{unit}]",
+        )
+    if band is not None:
+        percent = (100.0 * band / diagram.frequencies).T
+        print_columns(
+            {omega: formatted(diagram.omegas, ".4g")}
+            | {name: formatted(row, ".3g") for name, row in zip(names, percent, strict=True)},
+            title="Standard deviations [%]",
         )
     met = diagram.crossings
     print_columns(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 import sys
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -23,7 +24,7 @@ from ..files.beam_file import RunFile, load_run_file
 from ..files.beam_tables import NUMERICS, THEORY, require_keys
 from ..runs.attributes import blade_attributes, theory_attributes
 from .motion import ChosenMotion, chosen_motion, refuse_rest
-from .options import KINDS, OPTIONS, blade_of, loads_of
+from .options import KINDS, OPTIONS, blade_of, deviations_of, loads_of
 
 if TYPE_CHECKING:
     from ..fem.case import RunCase
@@ -63,6 +64,8 @@ class Request:
         The options' over the file's.
     loads
         Those of the options, or else those of the file.
+    uncertainty
+        Standard deviations of the blade's numbers.
     options
         Options that were given, by name.
     values
@@ -73,6 +76,7 @@ class Request:
     blade: Blade
     theory: Theory
     loads: Sequence[Load]
+    uncertainty: Mapping[str, float]
     options: Mapping[str, Any]
     values: Mapping[str, Any]
 
@@ -90,6 +94,12 @@ class Request:
         """Largest error of the exact blade; None is that of the function."""
         given = self.values.get("tolerance")
         return None if given is None else positive("tolerance", given)
+
+    def scatter(self, pairs: Sequence[str], length: float | None) -> tuple[dict[str, float], float]:
+        """Return deviations by name and their correlation length, of options or of the file."""
+        file = dict(self.uncertainty)
+        of_file = file.pop("length", math.inf)
+        return deviations_of("scatter", pairs) or file, of_file if length is None else length
 
     @property
     def motion(self) -> ChosenMotion:
@@ -180,6 +190,7 @@ def _request(config: Path | None, file: RunFile, arguments: Mapping[str, Any]) -
         blade=blade_of(file.blade, options),
         theory=Theory(**{**file.theory, **_theory(options.get("theory", ()))}),
         loads=loads_of(options) or file.loads,
+        uncertainty=file.uncertainty,
         options=options,
         values={**_PAPER, **_element_of(file.blade), **file.numerics, **file.motion, **options},
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,7 +14,7 @@ from analytic.exact.linear.steady_state import SteadyState
 from analytic.input_checks import rotation_speed, whole_number
 
 from .job import Flag, Results
-from .options import Number, Whole, deviations_of
+from .options import Number, Whole
 from .output import bar, formatted, print_columns, print_text
 from .request import Request, uses
 
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 _DIGITS = 7  # of percents; derivatives have no more
 
 
-@uses("section", "theory", "tolerance", "motion.omega", "loads")
+@uses("section", "theory", "tolerance", "motion.omega", "loads", "uncertainty")
 def sensitivity(
     request: Request,
     *,
@@ -55,7 +54,8 @@ def sensitivity(
         Largest number of rows of stations that are printed; netCDF and CSV have all.
     scatter
         Standard deviations, pairs of a number of the whole blade and its deviation, relative or in
-        its unit, as EI3=0.05 m=0.03: prints the scatter that comes of it, and where it is from.
+        its unit, as EI3=0.05 m=0.03; unless given, [uncertainty] of the file. Prints the scatter
+        that comes of it, and where it is from.
     length
         Correlation length of the scatter along the blade [m]; unless given, all stations are off
         together.
@@ -75,7 +75,7 @@ def sensitivity(
 
     speed = rotation_speed(request.values.get("omega", 0.0) if omega is None else omega)
     whole_number("rows", rows, least=0)
-    deviations = deviations_of("scatter", scatter)
+    deviations, correlated = request.scatter(scatter, length)
     if request.loads and not steady:
         raise ValueError(
             f"{request.config or 'the command'} has [[loads]], which act on the steady state: "
@@ -97,9 +97,10 @@ def sensitivity(
             f"sensitivity-{'steady-' * steady}omega-{speed:g}",
             dataset_of(found),
             show=lambda *_: _print(found, rows),
+            draw=lambda figures, _: figures.tornado(found),
         )
     if deviations:
-        _print_spread(found, deviations, math.inf if length is None else length)
+        _print_spread(found, deviations, correlated)
 
 
 def _print_spread(found: Sensitivity, scatter: Mapping[str, float], length: float) -> None:
@@ -120,11 +121,10 @@ def _print_spread(found: Sensitivity, scatter: Mapping[str, float], length: floa
 
 def _values(found: Sensitivity) -> dict[str, list[str]]:
     """Return columns of what was computed."""
-    digits = ".6g" if isinstance(found.answer, SteadyState) else ".5g"
-    return {
-        "number": [*map(_title, found.outputs, found.units)],
-        "value": formatted(found.values, digits),
-    }
+    if isinstance(found.answer, SteadyState):
+        names = [*map(_title, found.outputs, found.units)]
+        return {"number": names, "value": formatted(found.values, ".6g")}
+    return {"mode": [*found.outputs], "ω [rad/s]": formatted(found.values, ".5g")}
 
 
 def _title(output: str, unit: str) -> str:
@@ -158,7 +158,7 @@ def _print(found: Sensitivity, rows: int) -> None:
             print_columns(
                 {
                     "number": [one.name for one in several],
-                    "change": [_change(one.step, one.size, one.unit) for one in several],
+                    "change": [one.change for one in several],
                     **{
                         name: [f"{round(value, _DIGITS) + 0.0:+.3g}" for value in row.tolist()]
                         for name, row in zip(titles[some], of[:, places], strict=True)
@@ -168,10 +168,3 @@ def _print(found: Sensitivity, rows: int) -> None:
             )
         if len(first) < len(stations):
             print_text(f"{len(stations) - len(first)} more numbers of stations change less")
-
-
-def _change(step: float, size: float, unit: str) -> str:
-    """Return a change in words."""
-    if unit == "rad":
-        return f"+{math.degrees(step):g} deg"
-    return f"+{step:.3g} {unit}" if unit == "m" else f"+{100.0 * step / size:g} %"

@@ -10,8 +10,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from analytic.arrays import FloatArray
 from analytic.exact.linear.campbell import Campbell
 from analytic.plotting import FOLD, UNSTABLE, backbone_drawn, draw_response
+from analytic.sensitivity import Sensitivity, Spread
 from analytic.theory import BERNOULLI_EULER
 
 from ..paper import BLUE, ORANGE, RED
@@ -22,13 +24,25 @@ _GROWTH = {"period doubling": ("s", BLUE), "divergence": ("^", RED), "sum resona
 _DAMPINGS = {"bending": ("$η_b$", "s"), "axial": ("$η_a$", "s"), "external": ("$d$", "kg/(m s)")}
 
 
-def campbell(diagram: Campbell, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
+def campbell(
+    diagram: Campbell,
+    ax: Axes | None = None,
+    *,
+    highest: float | None = None,
+    deviations: FloatArray | None = None,
+) -> Axes:
     """Draw lag, flap and torsional frequencies over the speed, and the lines kω.
 
-    Up to the frequency `highest` [rad/s], or all.
+    Up to the frequency `highest` [rad/s], or all; with bands of two standard `deviations`.
     """
     with house_axes(ax, column(), 3.2) as axes:
-        return diagram.plot(axes, highest=highest)
+        return diagram.plot(axes, highest=highest, deviations=deviations)
+
+
+def tornado(found: Sensitivity | Spread, output: str | None = None, ax: Axes | None = None) -> Axes:
+    """Draw what most changes an output, or most adds to its deviation; the first by default."""
+    with house_axes(ax, column(), 2.6) as axes:
+        return found.plot(output, axes)
 
 
 def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = None) -> Axes:

@@ -12,7 +12,7 @@ from typing import Any, get_args
 
 from analytic import Beam, Blade, Damping, PointMass, Section, Theory
 from analytic.description import from_description
-from analytic.input_checks import positive, rotation_speed, shown, whole_number
+from analytic.input_checks import not_negative, positive, rotation_speed, shown, whole_number
 from analytic.lazily import Lazily
 from analytic.loads import Load
 from analytic.parts import Line
@@ -37,6 +37,7 @@ class RunFile:
     loads: Sequence[Load] = ()
     numerics: Mapping[str, Any] = field(default_factory=dict)
     theory: Mapping[str, Any] = field(default_factory=dict)
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
 
 
 def load_beam(path: str | os.PathLike[str]) -> Blade:
@@ -88,9 +89,11 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
     """Read [beam] or [blade], as `load_beam` does, and the tables of a run.
 
     [motion] may hold omega [rad/s] and ramp_time [s]; [numerics] element, elements, step [s],
-    duration [s] and frame; [theory] the arguments of a `Theory`; each [[loads]] the kind of a load
-    and its fields, of a LoadTable also the name of a CSV `file`, as `load_table` reads. A file with
-    one of these may do without a beam, unless it `needs_beam`. Errors are those of `load_beam`.
+    duration [s] and frame; [theory] the arguments of a `Theory`; [uncertainty] standard deviations
+    of the blade's numbers by name, and a correlation `length` [m]; each [[loads]] the kind of a
+    load and its fields, of a LoadTable also the name of a CSV `file`, as `load_table` reads. A file
+    with one of these may do without a beam, unless it `needs_beam`. Errors are those of
+    `load_beam`.
     """
     source = Path(path)
     if reader := reader_of(source):
@@ -115,10 +118,14 @@ def load_run_file(path: str | os.PathLike[str], *, needs_beam: bool = False) -> 
         }
         theory = document.get("theory", {})
         Theory(**theory)
+        uncertainty = {
+            name: not_negative(f"{name} of [uncertainty]", value)
+            for name, value in document.get("uncertainty", {}).items()
+        }
         loads = [load_of(one, source.parent) for one in document.get("loads", [])]
     except (OverflowError, TypeError, ValueError) as error:
         raise ValueError(f"{source}: {error}") from error
-    return RunFile(blade=blade, loads=loads, theory=theory, **run)
+    return RunFile(blade=blade, loads=loads, theory=theory, uncertainty=uncertainty, **run)
 
 
 def _number(name: str, value: object) -> Any:

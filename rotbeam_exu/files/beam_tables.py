@@ -71,6 +71,7 @@ _DOCUMENT = Table(
         "theory": THEORY,
         "numerics": NUMERICS,
         "loads": list[Load],
+        "uncertainty": dict[str, float],
     },
 )
 

@@ -24,6 +24,7 @@ TABLES = {
     "theory": "[theory]\nextension = true\nshear = 0.3\nengesser = false\n"
     "rotary_inertia = true\ntrapeze = false\n",
     "loads": "[[loads]]\nkind = 'Gravity'\n",
+    "uncertainty": "[uncertainty]\nEI3 = 0.1\n",
 }  # fmt: skip
 REQUIRED = {
     "backbone": "--exact",
@@ -59,7 +60,7 @@ class NotedRequest(room.Request):
     read: set
 
     def __getattribute__(self, name):
-        if name in ("theory", "loads"):
+        if name in ("theory", "loads", "uncertainty"):
             self.read.update(getattr(_DOCUMENT.optional[name], "optional", [name]))
         return super().__getattribute__(name)
 
@@ -95,7 +96,7 @@ def test_a_command_uses_or_names_all_of_a_table(call, tmp_path, monkeypatch, com
     arguments = REQUIRED.get(command, "").split()
     (tmp_path / "measured.csv").write_text("mode,frequency [Hz]\n1,0.5\n")
     # These come after the speed that commands need.
-    if arguments and command != "fit" and table in ("numerics", "theory"):
+    if arguments and command != "fit" and table in ("numerics", "theory", "uncertainty"):
         arguments += ["--omega", "4"]
     code, _, error = call(command, *arguments, "--config", "run.toml")
     if code == 2:
@@ -103,8 +104,9 @@ def test_a_command_uses_or_names_all_of_a_table(call, tmp_path, monkeypatch, com
         assert "leave it out" in error
         return
     assert code in (0, 130), error
-    keys = getattr(_DOCUMENT.optional[table], "optional", ["loads"])
+    keys = getattr(_DOCUMENT.optional[table], "optional", [table])
     named = re.findall(r"\w+", error.partition("does not use ")[2].partition(" of [")[0])
+    named += ["uncertainty"] * ("EI3" in named)
     whole = table != "motion" or not read & {*keys}  # of a motion a command may use the speed alone
     assert not whole or {*keys} - {*named} <= read
 

@@ -77,7 +77,7 @@ def test_a_scatter_is_printed_with_its_shares(call, tmp_path):
     """ω ∝ √(EI/m), but for its axial inertia."""
     code, out, error = call("sensitivity", "--count", "1", "--scatter", "EI3=0.06", "m=0.08")
     assert code == 0, error
-    (_, _, spread, *shares) = cells(out, "lag 1 [rad/s]")
+    (_, _, spread, *shares) = cells(out, "lag 1")
     assert float(spread) == pytest.approx(5.0, rel=2e-2)
     assert list(map(float, shares)) == pytest.approx([36.0, 64.0], abs=0.2)
     for pairs, sentence in (
@@ -90,3 +90,42 @@ def test_a_scatter_is_printed_with_its_shares(call, tmp_path):
         assert (code, sentence in error) == (2, True), error
     code, _, error = call("sensitivity", "--count", "1", "--scatter", "m=0.1", "--length", "2")
     assert (code, "leave length out" in error) == (2, True)
+
+
+def test_the_file_has_the_uncertainty(call, tmp_path):
+    blade = blade_toml(irregular(3, 0.01, 4))
+    (tmp_path / "blade.toml").write_text(f"{blade}\n[uncertainty]\nEI3 = 0.06\nlength = 0.5\n")
+    config = ("--config", tmp_path / "blade.toml", "--count", "1")
+    code, of_file, error = call("sensitivity", *config)
+    assert (code, error) == (0, "")
+    told = of_file.partition("Standard")[2]
+    _, given, _ = call("sensitivity", *config, "--scatter", "EI3=0.06", "--length", "0.5")
+    assert told
+    assert given.partition("Standard")[2] == told
+    code, out, error = call("campbell", *config, "--points", "2", "--omega-max", "1")
+    assert (code, error) == (0, "")
+    row = next(line for line in told.splitlines() if " 1 " in line)
+    mode, *values = row.strip("│").split("│")
+    percent = out.partition("Standard deviations [%]")[2].splitlines()[4].strip("│").split("│")
+    assert mode.strip() in out
+    assert float(percent[1]) == pytest.approx(float(values[2]), rel=1e-2)
+    code, _, error = call("blade", "--config", tmp_path / "blade.toml")
+    assert (code, "does not use EI3, length of [uncertainty]" in error) == (0, True)
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ("EI3 = -0.1", "EI3 of [uncertainty] must not be negative"),
+        ("EI3 = true", "EI3 of [uncertainty] must be a"),
+        ('EI3 = "5 %"', "EI3 of [uncertainty] must be a"),
+        ("EI3 = nan", "EI3 of [uncertainty] must be finite"),
+        ("EI9 = 0.1", "scatter has no parameter 'EI9'"),
+        ("EI3 = 0.1\nlength = 2.0", "a correlation length is for numbers of stations"),
+    ],
+)
+def test_an_uncertainty_that_is_none(call, tmp_path, line, sentence):
+    (tmp_path / "run.toml").write_text(f"[uncertainty]\n{line}\n")
+    code, _, error = call("sensitivity", "--config", tmp_path / "run.toml")
+    assert code == 2
+    assert sentence in error

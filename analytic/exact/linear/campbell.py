@@ -111,7 +111,13 @@ class Campbell:
         squares = PchipInterpolator(speeds**2, frequencies**2)(drawn**2)
         return drawn, np.sqrt(squares)
 
-    def plot(self, ax: Axes | None = None, *, highest: float | None = None) -> Axes:
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        highest: float | None = None,
+        deviations: FloatArray | None = None,
+    ) -> Axes:
         """Draw the frequencies, named, the lines kω that they cross, and where; return the axes.
 
         The curves go through speeds of their own, as many as a smooth picture takes.
@@ -122,6 +128,8 @@ class Campbell:
             Drawn on these; otherwise on a new figure.
         highest : float, optional
             Frequency [rad/s] up to which is drawn; otherwise all are.
+        deviations : ndarray (speeds, count), optional
+            Standard deviations of the frequencies [rad/s]: bands of two of them are shaded.
         """
         ax = axes_or_new(ax)
         low, high = float(self.omegas[0]), float(self.omegas[-1])
@@ -140,11 +148,17 @@ class Campbell:
             )  # fmt: skip
         kinds = [name.split()[0] for name in self.names]
         heights = apart(curves[-1], 0.045 * top)
-        for kind, name, row, height in zip(kinds, self.names, curves.T, heights, strict=True):
+        wide = np.zeros_like(self.frequencies) if deviations is None else 2.0 * deviations
+        for kind, name, row, height, band in zip(
+            kinds, self.names, curves.T, heights, wide.T, strict=True
+        ):
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
             color = cycled(list(DASHES).index(kind))
             (line,) = ax.plot(omegas, row, color=color, ls=DASHES[kind])
+            if deviations is not None:
+                half = np.interp(omegas, self.omegas, band)
+                ax.fill_between(omegas, row - half, row + half, color=color, alpha=0.2, lw=0.0)
             ax.annotate(
                 name, (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from analytic import Beam, Theory, linear_modes
-from analytic.sensitivity import parameters_of, sampled, sensitivity, spread
+from analytic import Beam, Theory, campbell, linear_modes
+from analytic.sensitivity import campbell_spread, parameters_of, sampled, sensitivity, spread
 from tests.beams import irregular, unit_beam
 
 TABLE = irregular(3, 0.01, 4)
@@ -93,3 +93,46 @@ def test_what_is_no_scatter_is_refused(scatter, length, sentence, modes):
                  lambda: sampled(modes, scatter, length, count=1)):  # fmt: skip
         with pytest.raises((ValueError, TypeError), match=sentence):
             verb()
+
+
+def test_the_scatter_of_a_diagram_is_that_of_its_modes(modes):
+    diagram = campbell(TABLE, [0.0, 2.0, 3.0], 2)
+    scatter = {"EI2": 0.05, "EI3": 0.02, "setting_angle": 0.01}
+    for length in (np.inf, 0.3):
+        found = campbell_spread(diagram, scatter, length)
+        assert found.shape == diagram.frequencies.shape
+        expected = spread(sensitivity(modes), scatter, length)
+        np.testing.assert_allclose(found[1], expected.deviations, rtol=1e-5)
+    with pytest.raises(TypeError, match=r"diagram must be what campbell returns, got 3\.0"):
+        campbell_spread(3.0, scatter)
+    with pytest.raises(ValueError, match="scatter has no parameter 'EI4'"):
+        campbell_spread(diagram, {"EI4": 0.1})
+
+
+def test_curves_that_cross_keep_their_own_scatter():
+    """Lag depends on EI3, flap on EI2, before and after they have met."""
+    strip = Beam.reference().with_section_out_of_plane(0.95, 0.9)
+    diagram = campbell(strip, [0.0, 6.0], 2)
+    lag, flap = (diagram.names.index(name) for name in ("lag 1", "flap 1"))
+    order = np.argsort(diagram.frequencies, axis=1)
+    assert order[0].tolist() != order[1].tolist()
+    by_lag, by_flap = (campbell_spread(diagram, {name: 0.1}) for name in ("EI3", "EI2"))
+    assert np.all(by_lag[:, lag] > 0.05)
+    assert np.all(by_lag[:, flap] < 1e-3)
+    assert np.all(by_flap[:, flap] > 0.03)
+    assert np.all(by_flap[:, lag] < 1e-3)
+
+
+def test_pictures_have_the_largest_on_top(modes):
+    found = sensitivity(modes, ["EI2", "m", "precone", "EI2[1]"])
+    names = [tick.get_text() for tick in found.plot("lag 1").get_yticklabels()]
+    row = found.outputs.index("lag 1")
+    largest = np.abs(found.derivatives[row] * [one.step for one in found.parameters])
+    order = [f"{found.parameters[k].name} {found.parameters[k].change}" for k in largest.argsort()]
+    assert names == order
+    shares = spread(found, {"EI2": 0.01, "m": 0.05})
+    bars = shares.plot("lag 1").patches
+    widths = np.array([bar.get_width() for bar in bars])
+    assert np.sqrt(np.sum(widths**2)) == pytest.approx(shares.deviations[row])
+    with pytest.raises(ValueError, match="there is no 'lag 9': known are flap 1, lag 1"):
+        found.plot("lag 9")
