@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
+from ..exact.free.orbits import Orbits
 from ..exact.linear.families import LinearModes
 from ..exact.linear.steady_state import SteadyState
 from ..input_checks import shown
@@ -17,13 +18,14 @@ from ..plotting import tornado
 from ..theory import Theory
 from ..threads import one_thread
 from .frequencies import FrequencyDerivatives
+from .orbits import OrbitDerivatives
 from .parameters import Parameter, parameters_of
 from .steady import SteadyDerivatives
 
 if TYPE_CHECKING:
     from ..plotting import Axes
 
-Answer = LinearModes | SteadyState
+Answer = LinearModes | SteadyState | Orbits
 
 
 class Derivatives(Protocol):
@@ -44,6 +46,7 @@ class Derivatives(Protocol):
 _KINDS: dict[type, type[Derivatives]] = {
     LinearModes: FrequencyDerivatives,
     SteadyState: SteadyDerivatives,
+    Orbits: OrbitDerivatives,
 }
 
 

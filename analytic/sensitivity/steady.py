@@ -28,6 +28,7 @@ from .parameters import Parameter
 _STEP = 1e-5  # of coordinates, which are of the size of one
 _CHANGE = 1e-4  # of a parameter over its size, where residuals are compared
 _ROUND_OFF = 1e-12  # without dimensions
+_SEEN = 1e-6  # part of a strain that the functions lack
 _CLAMP = np.zeros(1)
 
 
@@ -48,16 +49,33 @@ class SteadyDerivatives:
         self._unit = np.array(lengths + [force] * 3 + [force * self._blade.length] * 3)
         values = _outputs(self._steady, q[None])[0]
         self.values = self._unit * _without_noise(values)
-        steps = _STEP * np.eye(q.size)
-        gradient = _outputs(self._steady, q + steps) - _outputs(self._steady, q - steps)
-        K = self._steady.linearized.stiffness[0]
-        self._adjoint = np.linalg.solve(K.T, 0.5 / _STEP * gradient)
         by = self._steady.by()
         self._potential = not by.follow and (by.push is None or not by.push[2].any())
+        self._adjoint = self._adjoints()
+        if self._steady.model.answers:
+            self._steady = self._steady.onto(self._caused(), _SEEN)
+            q, self._adjoint = self._steady.equilibrium, self._adjoints()
         ways = [self._along(k, way) for k, way in enumerate(self._adjoint.T)]
         squares = np.stack([np.outer(way, q) + np.outer(q, way) for way in self._adjoint.T])
         self._sums = Energies(self._steady.model, self._blade, state.theory, ways, squares)
         self.parameters = self._sums.parameters
+
+    def _adjoints(self) -> FloatArray:
+        """Return strains that go with the force or motion of each output, (n, outputs)."""
+        q = self._steady.equilibrium
+        steps = _STEP * np.eye(q.size)
+        gradient = _outputs(self._steady, q + steps) - _outputs(self._steady, q - steps)
+        K = self._steady.linearized.stiffness[0]
+        return np.asarray(np.linalg.solve(K.T, 0.5 / _STEP * gradient))
+
+    def _caused(self) -> FloatArray:
+        """Return the forces on strains that these cause, of which a table's functions have none."""
+        model, parts = self._steady.model, []
+        for k, way in enumerate(self._adjoint.T):
+            states = self._along(k, way)
+            size = math.sqrt(float(way @ model.functions.stiffness @ way))
+            parts.append(model.forces_caused(*states[:4]) @ states.weights / (size or 1.0))
+        return np.stack(parts, axis=2)
 
     def _along(self, k: int, way: FloatArray) -> States:
         """Return the states around the steady one along what has the output `k` for its force."""
@@ -93,9 +111,9 @@ def moved(model: SpaceContinuum, acting: Driven, output: int, sizes: FloatArray)
     That of which an output is the force, by `sizes` (samples,).
     """
     none = np.zeros((3, sizes.size))
-    shift, turn, pull = none.copy(), none.copy(), none.copy()
-    for kind, first in ((pull, 0), (shift, 4), (turn, 7)):
-        if first <= output < first + 3:
+    pull, twist, shift, turn = (none.copy() for _ in range(4))
+    for kind, first in ((pull, 0), (twist, 3), (shift, 4), (turn, 7)):
+        if first <= output < first + (1 if kind is twist else 3):
             kind[output - first] = sizes
     back = spatial.transform.Rotation.from_rotvec(-turn.T).as_matrix()
     W, W_dot, hub = model.clamp(acting)
@@ -107,6 +125,7 @@ def moved(model: SpaceContinuum, acting: Driven, output: int, sizes: FloatArray)
     if acting.push is not None:
         push += np.einsum("sij,kjsp->kisp", back, np.broadcast_to(acting.push, push.shape))
     push[0] += np.multiply.outer(pull, model.outboard["tip"])
+    push[2] += np.multiply.outer(twist, model.outboard["tip"])
     return acting._replace(push=push, clamp=arms)
 
 

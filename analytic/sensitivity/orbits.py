@@ -1,0 +1,105 @@
+"""Derivatives of free orbits of given amplitudes to the numbers of a blade.
+
+An orbit is the root of F(z, p) = 0: the harmonics of the residual, and the peak less the amplitude;
+z are the coefficients and the frequency Ω. So dΩ/dp = -λ·∂F/∂p, where λ is the row of the inverse
+tangent that belongs to Ω: one solution for all parameters.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..blade import Blade
+from ..exact.continuum.planar_rotation import blade_continuum
+from ..exact.continuum.rotation import BladeOrbit, SteadyBlade
+from ..exact.continuum.space import SpaceContinuum
+from ..exact.free.orbits import Orbits
+from ..exact.linear.modes import linear_modes
+from ..methods.fourier import waves
+from ..methods.harmonic_balance import jacobian, projected
+from ..theory import Theory
+from .energies import difference
+from .frequencies import FrequencyDerivatives
+from .frozen import frozen
+from .parameters import Parameter, parameters_of
+
+_CHANGE = 1e-4  # of a parameter over its size
+_FIRST = 6  # modes among which that of the orbits is sought
+
+
+class OrbitDerivatives:
+    """Derivatives of frequencies, and of softening (1 - ω_NL/ω_n)/a², at the orbits' amplitudes."""
+
+    def __init__(self, orbits: Orbits) -> None:
+        several = [f"{a:g}" for a in orbits.amplitude.tolist()]
+        self.outputs = tuple(
+            f"{what} at a = {a}" for what in ("frequency", "softening") for a in several
+        )
+        self.units = ("rad/s",) * len(several) + ("1",) * len(several)
+        self._over, self._squares = orbits.frequency / orbits.omega_n, orbits.amplitude**2
+        self.values = np.concatenate((orbits.frequency, (1.0 - self._over) / self._squares))
+        self._orbits = orbits
+        self.parameters = parameters_of(orbits.blade, orbits.theory)
+        self._linear = _linear(orbits)
+        self._rows = [_adjoint(orbit) for orbit in orbits.nondimensional]
+
+    def to(self, parameter: Parameter) -> FloatArray:
+        """Return the derivatives of all outputs to a parameter."""
+        slopes = [
+            -difference(parameter, partial(self._defect, k), _CHANGE)
+            for k in range(len(self._rows))
+        ]
+        frequency = self._orbits.blade.frequency_scale * np.array(slopes)
+        linear, row = self._linear
+        of_linear = linear.to(linear.parameters[parameter.name])[row] / linear.values[row]
+        change = frequency / self._orbits.frequency - of_linear
+        return np.concatenate((frequency, -self._over * change / self._squares))
+
+    def _defect(self, k: int, blade: Blade) -> FloatArray:
+        """Return λ·F of an orbit in another blade."""
+        orbit = self._orbits.nondimensional[k]
+        system, unit = _system(orbit.system, self._orbits.blade, self._orbits.theory, blade)
+        other = replace(orbit, system=system, frequency=unit * orbit.frequency)
+        phases, weights = orbit.crests
+        q = waves(phases, orbit.harmonics, order=0)[0] @ orbit.coefficients
+        if phases.size == 1:
+            weights = np.sign(orbit.system.gauge(q))
+        height = weights @ system.gauge(q)
+        return np.asarray(np.append(projected(other), height) @ self._rows[k])
+
+
+def _adjoint(orbit: BladeOrbit) -> FloatArray:
+    """Return the row of the inverse tangent that belongs to the frequency."""
+    matrix = jacobian(orbit)
+    matrix[-1] = orbit.peak_gradient()
+    return np.asarray(np.linalg.solve(matrix.T, np.eye(len(matrix))[-1]))
+
+
+def _system(
+    system: SteadyBlade, of: Blade, theory: Theory, blade: Blade
+) -> tuple[SteadyBlade, float]:
+    """Return the same equations of another blade, and its unit of time over that of the orbits'."""
+    model = system.model
+    if isinstance(model, SpaceContinuum):
+        other = SpaceContinuum(frozen(model.functions, of, blade))
+        return replace(system, model=other, near=system.equilibrium, given=None), 1.0
+    unit = of.frequency_scale / blade.frequency_scale
+    bending, axial, *_ = model.families
+    planar = blade_continuum(blade, theory, bending, axial)
+    return replace(system, model=planar, rate=unit * system.rate, near=None, given=None), unit
+
+
+def _linear(orbits: Orbits) -> tuple[FrequencyDerivatives, int]:
+    """Return the derivatives of the linear modes, and the place of that of the orbits."""
+    count = _FIRST
+    while True:
+        modes = linear_modes(
+            orbits.blade, orbits.omega, count, theory=orbits.theory, functions=max(20, 2 * count)
+        )
+        if orbits.mode in modes.names:
+            return FrequencyDerivatives(modes), modes.names.index(orbits.mode)
+        count *= 2
