@@ -56,10 +56,11 @@ class Sensitivity:
 
     Attributes
     ----------
-    answer : LinearModes or SteadyState
+    answer : LinearModes, SteadyState or Orbits
     outputs : tuple of str
         Its numbers: names of modes; "tip x" and so on in the frame of `steady_state`, "twist",
-        and "root force x" and "root moment x" with which the blade acts on the clamp.
+        and "root force x" and "root moment x" with which the blade acts on the clamp; of orbits
+        "frequency at a = 0.1", and "softening at a = 0.1", (1 - ω_NL/ω_n)/a².
     units : tuple of str
         Of the outputs.
     values : ndarray (outputs,)
@@ -149,15 +150,16 @@ def place_of(name: str | None, among: Sequence[str]) -> int:
 def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sensitivity:
     """Return how an exact answer changes with the numbers of its blade.
 
-    Frequencies of modes, or tip, twist and root loads of a steady state; by the answer's own
-    tangent, at the same speed and under the same loads. Nothing is solved anew. Modes in the plane
-    of bending alone where the section out of it is unknown.
+    Frequencies of modes; tip, twist and root loads of a steady state; frequencies of orbits at
+    their amplitudes. By the answer's own tangent, at the same speed and under the same loads.
+    Nothing is solved anew. Modes in the plane of bending alone where the section out of it is
+    unknown.
 
     Parameters
     ----------
-    answer : LinearModes or SteadyState
-        Of `linear_modes`, where a mode that meets another at its frequency has no derivative; or of
-        `steady_state`.
+    answer : LinearModes, SteadyState or Orbits
+        Of `linear_modes`, where a mode that meets another at its frequency has no derivative; of
+        `steady_state`; or of `periodic_orbits`.
     parameters : iterable of str, optional
         Names out of `parameters_of`; all, unless given.
 
@@ -182,7 +184,8 @@ def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sens
     kind = _KINDS.get(type(answer))
     if kind is None:
         raise TypeError(
-            f"answer must be what linear_modes or steady_state returns, got {shown(answer)}"
+            "answer must be what linear_modes, steady_state or periodic_orbits returns, got "
+            f"{shown(answer)}"
         )
     found = kind(answer)
     known = {name: found.parameters[name] for name in parameters_of(answer.blade, answer.theory)}

@@ -39,7 +39,7 @@ class Spread:
 
     Attributes
     ----------
-    answer : LinearModes or SteadyState
+    answer : LinearModes, SteadyState or Orbits
     outputs : tuple of str
         Its numbers, as of `Sensitivity`.
     values : ndarray (outputs,)

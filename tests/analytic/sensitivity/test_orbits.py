@@ -1,0 +1,61 @@
+"""Derivatives of orbits: laws of similarity, and orbits that are solved anew."""
+
+import numpy as np
+import pytest
+
+from analytic import Beam, Theory, periodic_orbits
+from analytic.sensitivity import parameters_of, sensitivity
+from tests.beams import unit_beam
+
+STRIP = unit_beam(1e-3).with_section_out_of_plane(0.25, 0.2).with_twist(0.4)
+
+
+def test_similarity_at_rest():
+    """All stiffness times k, or all mass over k: ω times √k, and the softening stays."""
+    orbits = periodic_orbits(Beam.reference(), 0.0, [0.1, 0.4])
+    found = sensitivity(orbits, ["EA", "EI3", "m"])
+    assert found.outputs[::2] == ("frequency at a = 0.1", "softening at a = 0.1")
+    stiff = found.relative[:, 0] + found.relative[:, 1]
+    for relative, sign in ((stiff, 1.0), (found.relative[:, 2], -1.0)):
+        np.testing.assert_allclose(relative[:2], sign * 0.5, rtol=1e-7)
+        np.testing.assert_allclose(relative[2:], 0.0, atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("blade", "omega", "mode", "name"),
+    [
+        (Beam.reference().with_hub_radius(0.5), 6.0, "lag 1", "hub_radius"),
+        (Beam.reference().with_tip_mass(0.05), 6.0, "lag 1", "point_mass[0]"),
+        (STRIP, 2.0, "lag 1", "EI2"),
+        (STRIP.with_precone(0.05).with_hub_radius(0.2), 2.0, "flap 1", "precone"),
+    ],
+)
+def test_against_orbits_solved_anew(blade, omega, mode, name):
+    """Frequencies to 1e-7; the softening over a² has what ω_n's derivative leaves."""
+    amplitude = 0.1
+    orbits = periodic_orbits(blade, omega, [amplitude], mode=mode)
+    (found,) = sensitivity(orbits, [name]).derivatives.T
+    parameter = parameters_of(blade, Theory())[name]
+    change = 1e-3 * parameter.size
+    ahead, behind = (
+        periodic_orbits(parameter.changed(parameter.value + step), omega, [amplitude], mode=mode)
+        for step in (change, -change)
+    )
+    size = parameter.size / orbits.frequency
+    expected = (ahead.frequency - behind.frequency) / (2.0 * change)
+    np.testing.assert_allclose(found[:1] * size, expected * size, rtol=3e-6, atol=1e-6)
+    soft = [(1.0 - one.frequency / one.omega_n) / amplitude**2 for one in (behind, ahead)]
+    expected = np.diff(soft, axis=0)[0] / (2.0 * change)
+    np.testing.assert_allclose(
+        found[1:] * parameter.size, expected * parameter.size, atol=5e-6 / amplitude**2
+    )
+
+
+def test_names_of_orbits():
+    orbits = periodic_orbits(Beam.reference(), 6.0, [0.1])
+    found = sensitivity(orbits, ["m"])
+    assert found.units == ("rad/s", "1")
+    assert found.values[0] == orbits.frequency[0]
+    assert found.values[1] == pytest.approx(orbits.lambda_omega, rel=0.05)
+    with pytest.raises(ValueError, match=r"there is no 'tip x': known are frequency at a = 0\.1"):
+        found.of("tip x", "m")
