@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from cyclopts import Parameter
 
 import analytic
+from analytic.exact.linear.families import LinearModes
 from analytic.exact.linear.steady_state import SteadyState
 from analytic.input_checks import rotation_speed, whole_number
 
@@ -31,6 +32,7 @@ def sensitivity(
     omega: Number | None = None,
     count: Whole = 4,
     steady: Flag = False,
+    amplitude: Annotated[tuple[float, ...], Parameter(consume_multiple=True)] = (),
     rows: Whole = 15,
     scatter: Annotated[tuple[str, ...], Parameter(consume_multiple=True)] = (),
     length: Number | None = None,
@@ -50,6 +52,8 @@ def sensitivity(
         Number of modes.
     steady
         Of the steady state under the loads instead: its tip, and force and moment on the clamp.
+    amplitude
+        Of free orbits of lag 1 with these peaks over the length instead.
     rows
         Largest number of rows of stations that are printed; netCDF and CSV have all.
     scatter
@@ -69,6 +73,7 @@ def sensitivity(
     $ rotbeam sensitivity --omega 6
     $ rotbeam sensitivity --omega 6 --scatter EI3=0.05 m=0.03
     $ rotbeam sensitivity --steady --omega 6 --section rectangle
+    $ rotbeam sensitivity --omega 6 --amplitude 0.1 0.3
     $ rotbeam sensitivity --omega 6 --section rectangle --count 3 -o results
     """
     from analytic.sensitivity import sensitivity as sensitivity_of
@@ -76,25 +81,34 @@ def sensitivity(
     speed = rotation_speed(request.values.get("omega", 0.0) if omega is None else omega)
     whole_number("rows", rows, least=0)
     deviations, correlated = request.scatter(scatter, length)
+    if steady and amplitude:
+        raise ValueError("--steady and --amplitude are of different answers: keep one")
     if request.loads and not steady:
         raise ValueError(
             f"{request.config or 'the command'} has [[loads]], which act on the steady state: "
             "leave it out, or add --steady"
         )
+    blade = request.blade
     settings: Any = {"theory": request.theory, "tolerance": request.tolerance}
+    kind = "steady-" if steady else "orbits-" if amplitude else ""
     with bar("answer and derivatives"):
-        found = sensitivity_of(
-            analytic.steady_state(request.blade, speed, loads=request.loads, **settings)
-            if steady
-            else analytic.linear_modes(request.blade, speed, count, **settings)
-        )
+        if amplitude:
+            found = sensitivity_of(
+                analytic.periodic_orbits(blade, speed, amplitude, theory=request.theory)
+            )
+        elif steady:
+            found = sensitivity_of(
+                analytic.steady_state(blade, speed, loads=request.loads, **settings)
+            )
+        else:
+            found = sensitivity_of(analytic.linear_modes(blade, speed, count, **settings))
     if out is None:
         _print(found, rows)
     else:
         from ..datasets import dataset_of
 
         Results(out=out, force=force).job(
-            f"sensitivity-{'steady-' * steady}omega-{speed:g}",
+            f"sensitivity-{kind}omega-{speed:g}",
             dataset_of(found),
             show=lambda *_: _print(found, rows),
             draw=lambda figures, _: figures.tornado(found),
@@ -121,10 +135,10 @@ def _print_spread(found: Sensitivity, scatter: Mapping[str, float], length: floa
 
 def _values(found: Sensitivity) -> dict[str, list[str]]:
     """Return columns of what was computed."""
-    if isinstance(found.answer, SteadyState):
-        names = [*map(_title, found.outputs, found.units)]
-        return {"number": names, "value": formatted(found.values, ".6g")}
-    return {"mode": [*found.outputs], "ω [rad/s]": formatted(found.values, ".5g")}
+    if isinstance(found.answer, LinearModes):
+        return {"mode": [*found.outputs], "ω [rad/s]": formatted(found.values, ".5g")}
+    names = [*map(_title, found.outputs, found.units)]
+    return {"number": names, "value": formatted(found.values, ".6g")}
 
 
 def _title(output: str, unit: str) -> str:
@@ -138,13 +152,16 @@ def _print(found: Sensitivity, rows: int) -> None:
     """
     changes = found.derivatives * [one.step for one in found.parameters]
     groups: tuple[tuple[str, slice], ...]
-    if isinstance(found.answer, SteadyState):
-        print_columns(_values(found), title=f"Steady state at {found.omega:g} rad/s")
-        titles = [*map(_title, found.outputs, found.units)]
-        groups = (("tip", slice(4)), ("force", slice(4, 7)), ("moment", slice(7, 10)))
-    else:
+    if isinstance(found.answer, LinearModes):
         changes *= 100.0 / found.values[:, None]
         titles, groups = [*found.outputs], (("frequencies [%]", slice(None)),)
+    else:
+        print_columns(_values(found), title=f"Answer at {found.omega:g} rad/s")
+        titles = [*map(_title, found.outputs, found.units)]
+        half = len(titles) // 2
+        groups = (("frequency", slice(half)), ("softening", slice(half, None)))
+        if isinstance(found.answer, SteadyState):
+            groups = (("tip", slice(4)), ("force", slice(4, 7)), ("moment", slice(7, 10)))
     stations = [k for k, one in enumerate(found.parameters) if one.family]
     whole = np.setdiff1d(np.arange(len(found.parameters)), stations).tolist()
     for what, some in groups:

@@ -129,3 +129,15 @@ def test_an_uncertainty_that_is_none(call, tmp_path, line, sentence):
     code, _, error = call("sensitivity", "--config", tmp_path / "run.toml")
     assert code == 2
     assert sentence in error
+
+
+def test_orbits_of_the_papers_beam(call):
+    """At rest ω ∝ √(EI/m) at each amplitude, and the softening depends on neither."""
+    code, out, error = call("sensitivity", "--omega", "0", "--amplitude", "0.1", "0.3")
+    assert (code, error) == (0, "")
+    frequency, softening = out.partition("Change of the frequency")[2].split("Change of the soft")
+    ahead = [float(cell) for cell in cells(frequency, "EI3")[1:]]
+    assert ahead == pytest.approx([0.01455] * 2, rel=1e-2)
+    assert np.abs([float(cell) for cell in cells(softening, "m")[1:]]).max() < 1e-5
+    code, _, error = call("sensitivity", "--steady", "--amplitude", "0.1")
+    assert (code, "keep one" in error) == (2, True)
