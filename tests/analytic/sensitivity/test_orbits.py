@@ -51,6 +51,14 @@ def test_against_orbits_solved_anew(blade, omega, mode, name):
     )
 
 
+def test_the_hub_decides_the_softening_of_the_papers_beam():
+    """As the page says: 11 % by a hundredth of the length, 0.5 % by a hundredth of EI."""
+    found = sensitivity(periodic_orbits(Beam.reference(), 6.0, [0.1]), ["hub_radius", "EI3"])
+    hub, stiff = 0.01 * found.derivatives[1] * [8.0, 1.0] / found.values[1]
+    assert hub == pytest.approx(0.11, abs=0.005)
+    assert stiff == pytest.approx(-0.005, abs=5e-4)
+
+
 def test_names_of_orbits():
     orbits = periodic_orbits(Beam.reference(), 6.0, [0.1])
     found = sensitivity(orbits, ["m"])
