@@ -153,8 +153,8 @@ OPTIONS = list(chain.from_iterable(map(_numbers, _COMMANDS)))
 @pytest.mark.parametrize(("command", "option"), OPTIONS)
 def test_none_is_no_number_and_not_the_default(call, tmp_path, monkeypatch, command, option, text):
     monkeypatch.chdir(tmp_path)
-    needed = {"respond": {"--from": "3", "--to": "4"}}.get(command, {})
-    first = ["9"] if command == "figure" else []
+    needed = {"respond": {"--from": "3", "--to": "4"}, "fit": {"--free": "m"}}.get(command, {})
+    first = {"figure": ["9"], "fit": ["measured.csv"]}.get(command, [])
     code, out, error = call(command, *first, *chain(*({**needed, option: text}).items()))
     assert (code, out, error.count("\n")) == (2, "", 1)
     assert f"Invalid value for {option}: " in error
