@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
+from ..exact.driven.forced_orbits import ForcedResponse
 from ..exact.free.orbits import Orbits
 from ..exact.linear.families import LinearModes
 from ..exact.linear.steady_state import SteadyState
@@ -18,14 +19,14 @@ from ..plotting import tornado
 from ..theory import Theory
 from ..threads import one_thread
 from .frequencies import FrequencyDerivatives
-from .orbits import OrbitDerivatives
+from .orbits import OrbitDerivatives, ResponseDerivatives
 from .parameters import Parameter, parameters_of
 from .steady import SteadyDerivatives
 
 if TYPE_CHECKING:
     from ..plotting import Axes
 
-Answer = LinearModes | SteadyState | Orbits
+Answer = LinearModes | SteadyState | Orbits | ForcedResponse
 
 
 class Derivatives(Protocol):
@@ -47,6 +48,7 @@ _KINDS: dict[type, type[Derivatives]] = {
     LinearModes: FrequencyDerivatives,
     SteadyState: SteadyDerivatives,
     Orbits: OrbitDerivatives,
+    ForcedResponse: ResponseDerivatives,
 }
 
 
@@ -56,11 +58,12 @@ class Sensitivity:
 
     Attributes
     ----------
-    answer : LinearModes, SteadyState or Orbits
+    answer : LinearModes, SteadyState, Orbits or ForcedResponse
     outputs : tuple of str
         Its numbers: names of modes; "tip x" and so on in the frame of `steady_state`, "twist",
         and "root force x" and "root moment x" with which the blade acts on the clamp; of orbits
-        "frequency at a = 0.1", and "softening at a = 0.1", (1 - ω_NL/ω_n)/a².
+        "frequency at a = 0.1", and "softening at a = 0.1", (1 - ω_NL/ω_n)/a²; of a forced response
+        "peak at 3.7 rad/s", |q|/L where it was asked for, and where it is greatest or least.
     units : tuple of str
         Of the outputs.
     values : ndarray (outputs,)
@@ -91,8 +94,8 @@ class Sensitivity:
         return self.answer.blade
 
     @property
-    def omega(self) -> float:
-        """Its rotation speed [rad/s]."""
+    def omega(self) -> Any:
+        """Its rotation speed [rad/s], of a forced response at all its points."""
         return self.answer.omega
 
     @property
@@ -151,22 +154,22 @@ def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sens
     """Return how an exact answer changes with the numbers of its blade.
 
     Frequencies of modes; tip, twist and root loads of a steady state; frequencies of orbits at
-    their amplitudes. By the answer's own tangent, at the same speed and under the same loads.
-    Nothing is solved anew. Modes in the plane of bending alone where the section out of it is
-    unknown.
+    their amplitudes; peaks of a forced response in the plane. By the answer's own tangent, at the
+    same speed and under the same loads. Nothing is solved anew. Modes in the plane of bending alone
+    where the section out of it is unknown.
 
     Parameters
     ----------
-    answer : LinearModes, SteadyState or Orbits
+    answer : LinearModes, SteadyState, Orbits or ForcedResponse
         Of `linear_modes`, where a mode that meets another at its frequency has no derivative; of
-        `steady_state`; or of `periodic_orbits`.
+        `steady_state`, `periodic_orbits` or `forced_response`.
     parameters : iterable of str, optional
         Names out of `parameters_of`; all, unless given.
 
     Raises
     ------
     ValueError
-        If the blade has no parameter of a name.
+        If the blade has no parameter of a name, or a forced response leaves the plane.
 
     Examples
     --------
@@ -184,8 +187,8 @@ def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sens
     kind = _KINDS.get(type(answer))
     if kind is None:
         raise TypeError(
-            "answer must be what linear_modes, steady_state or periodic_orbits returns, got "
-            f"{shown(answer)}"
+            "answer must be what linear_modes, steady_state, periodic_orbits or forced_response "
+            f"returns, got {shown(answer)}"
         )
     found = kind(answer)
     known = {name: found.parameters[name] for name in parameters_of(answer.blade, answer.theory)}

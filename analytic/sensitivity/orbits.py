@@ -1,22 +1,26 @@
-"""Derivatives of free orbits of given amplitudes to the numbers of a blade.
+"""Derivatives of free orbits and of forced responses to the numbers of a blade.
 
-An orbit is the root of F(z, p) = 0: the harmonics of the residual, and the peak less the amplitude;
-z are the coefficients and the frequency Ω. So dΩ/dp = -λ·∂F/∂p, where λ is the row of the inverse
-tangent that belongs to Ω: one solution for all parameters.
+A free orbit is the root of F(z, p) = 0: the harmonics of the residual, and the peak less the
+amplitude; z are the coefficients and the frequency Ω. So dΩ/dp = -λ·∂F/∂p, where λ is the row of
+the inverse tangent that belongs to Ω: one solution for all parameters. Of a forced response the
+frequency is given, and the peak answers: da/dp = ∂a/∂p - λ·∂F/∂p, with λ of the peak's gradient.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
+from ..exact.continuum.loading import unit_load
 from ..exact.continuum.planar_rotation import blade_continuum
 from ..exact.continuum.rotation import BladeOrbit, SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
+from ..exact.driven.forced_orbits import ForcedResponse
 from ..exact.free.orbits import Orbits
 from ..exact.linear.modes import linear_modes
 from ..methods.fourier import waves
@@ -63,13 +67,51 @@ class OrbitDerivatives:
         """Return λ·F of an orbit in another blade."""
         orbit = self._orbits.nondimensional[k]
         system, unit = _system(orbit.system, self._orbits.blade, self._orbits.theory, blade)
-        other = replace(orbit, system=system, frequency=unit * orbit.frequency)
-        phases, weights = orbit.crests
-        q = waves(phases, orbit.harmonics, order=0)[0] @ orbit.coefficients
-        if phases.size == 1:
-            weights = np.sign(orbit.system.gauge(q))
-        height = weights @ system.gauge(q)
-        return np.asarray(np.append(projected(other), height) @ self._rows[k])
+        return np.asarray(np.append(*_met(orbit, system, unit)) @ self._rows[k])
+
+
+class ResponseDerivatives:
+    """Derivatives of the peaks of a forced response in the plane, where asked for and at maxima."""
+
+    def __init__(self, response: ForcedResponse) -> None:
+        if any(isinstance(orbit.system.model, SpaceContinuum) for orbit in response.nondimensional):
+            raise ValueError(
+                "a forced response in space has no derivatives yet: its damping is not among them; "
+                "take differences of two responses"
+            )
+        at = [k for k, mark in enumerate(response.marks) if mark in ("asked", "peak")]
+        self.outputs = tuple(f"peak at {response.frequency[k]:.6g} rad/s" for k in at)
+        self.units, self.values = ("1",) * len(at), response.amplitude[at]
+        self._response, self._orbits = response, [response.nondimensional[k] for k in at]
+        self.parameters = parameters_of(response.blade, response.theory)
+        self._rows = [
+            np.linalg.solve(jacobian(orbit)[:-1, :-1].T, orbit.peak_gradient()[:-1])
+            for orbit in self._orbits
+        ]
+
+    def to(self, parameter: Parameter) -> FloatArray:
+        """Return the derivatives of all peaks to a parameter."""
+        several = range(len(self._rows))
+        return np.array([difference(parameter, partial(self._peak, k), _CHANGE) for k in several])
+
+    def _peak(self, k: int, blade: Blade) -> FloatArray:
+        """Return the peak less λ·F in another blade."""
+        response, orbit = self._response, self._orbits[k]
+        other, unit = _system(orbit.system, response.blade, response.theory, blade)
+        system: Any = other  # driven, as the response's
+        load = unit_load(blade, response.load)
+        harmonics, height = _met(orbit, replace(system, drive=load), unit)
+        return np.asarray(height - harmonics @ self._rows[k])
+
+
+def _met(orbit: BladeOrbit, system: SteadyBlade, unit: float) -> tuple[FloatArray, FloatArray]:
+    """Return the harmonics of the residual of an orbit in another system, and its peak there."""
+    other = replace(orbit, system=system, frequency=unit * orbit.frequency)
+    phases, weights = orbit.crests
+    q = waves(phases, orbit.harmonics, order=0)[0] @ orbit.coefficients
+    if phases.size == 1:
+        weights = np.sign(orbit.system.gauge(q))
+    return projected(other), weights @ system.gauge(q)
 
 
 def _adjoint(orbit: BladeOrbit) -> FloatArray:

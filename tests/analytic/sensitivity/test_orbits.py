@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from analytic import Beam, Theory, periodic_orbits
+from analytic import (
+    Beam,
+    Damping,
+    Gravity,
+    Theory,
+    TipForce,
+    forced_response,
+    periodic_orbits,
+)
 from analytic.sensitivity import parameters_of, sensitivity
 from tests.beams import unit_beam
 
@@ -67,3 +75,37 @@ def test_names_of_orbits():
     assert found.values[1] == pytest.approx(orbits.lambda_omega, rel=0.05)
     with pytest.raises(ValueError, match=r"there is no 'tip x': known are frequency at a = 0\.1"):
         found.of("tip x", "m")
+
+
+def pushed(blade):
+    frequencies = [3.4, 3.7, 4.4]
+    return forced_response(blade, 6.0, TipForce(amplitude=0.5), frequencies, harmonics=6)
+
+
+def weighed(blade):
+    return forced_response(blade, [4.5, 5.0, 5.5], Gravity(), harmonics=6)
+
+
+@pytest.mark.parametrize(("respond", "count"), [(pushed, 4), (weighed, 3)])
+def test_peaks_against_responses_that_are_solved_anew(respond, count):
+    """Where asked for, and at resonance, where the frequency of the peak does not matter."""
+    damping = Damping(external=0.1, bending=1e-3)
+    blade = Beam.reference().with_hub_radius(0.3).with_damping(damping)
+    found = sensitivity(respond(blade), ["EI3", "m", "hub_radius"])
+    assert len(found.outputs) == count
+    for parameter, slopes in zip(found.parameters, found.derivatives.T, strict=True):
+        change = 3e-4 * parameter.size
+        ahead, behind = (
+            sensitivity(respond(parameter.changed(parameter.value + step)), []).values
+            for step in (change, -change)
+        )
+        size = parameter.size
+        expected = (ahead - behind) / (2.0 * change)
+        np.testing.assert_allclose(size * slopes, size * expected, rtol=3e-6, atol=5e-6)
+
+
+def test_a_response_in_space_has_none():
+    damped = STRIP.with_damping(Damping(bending=0.05, torsion=0.05, out_of_plane=0.05))
+    response = forced_response(damped, 2.0, TipForce(amplitude=0.01), [1.0, 1.5])
+    with pytest.raises(ValueError, match="a forced response in space has no derivatives yet"):
+        sensitivity(response)

@@ -93,7 +93,7 @@ def test_a_load_that_follows_has_no_potential():
 
 
 def test_bad_input():
-    with pytest.raises(TypeError, match="answer must be what linear_modes, steady_state or per"):
+    with pytest.raises(TypeError, match="answer must be what linear_modes, steady_state, perio"):
         sensitivity(3.0)
     with pytest.raises(ValueError, match="the blade has no parameter 'EI4'; it has EA, GJ"):
         sensitivity(solved(TABLE), ["EI4"])
