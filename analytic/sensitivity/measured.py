@@ -6,16 +6,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from ..arrays import FloatArray
 from ..blade import Blade
+from ..exact.continuum.unit import space_unit
 from ..exact.linear.modes import linear_modes
 from ..exact.linear.steady_state import steady_state
 from ..input_checks import finite_number, positive, rotation_speed, shown, whole_number
 from ..loads import Load, loads_at_once
 from ..theory import Theory
 from .derivatives import sensitivity
+from .energies import difference
 from .steady import SteadyDerivatives
 
+OUTPUTS = {
+    **{f"deflection {axis}": "m" for axis in "xyz"},
+    **dict(zip(SteadyDerivatives.outputs, SteadyDerivatives.units, strict=True)),
+}
+"""Numbers of a steady state that are measured, with their units."""
 _FIRST, _MOST = 6, 24  # modes among which a measured one is sought
 
 
@@ -118,12 +127,13 @@ class MeasuredFrequency(Measured):
 
 @dataclass(frozen=True, kw_only=True)
 class MeasuredState(Measured):
-    """A number of the steady state under loads: the tip's place, its twist, a load at the root.
+    """A number of the steady state under loads: a deflection, the tip's place, a load at the root.
 
     Parameters
     ----------
     output : str
-        As of `Sensitivity`: "tip z", "twist", "root moment y".
+        "deflection x", "deflection y" or "deflection z", the tip's place less that of the unloaded
+        blade; or as of `Sensitivity`: "tip z", "twist", "root moment y".
     loads : sequence of loads
         As of `steady_state`; a `PointLoad` is a static pull.
 
@@ -132,7 +142,7 @@ class MeasuredState(Measured):
     >>> from analytic import PointLoad
     >>> from analytic.sensitivity import MeasuredState
     >>> pull = PointLoad(force=(0.0, 0.0, 10.0))
-    >>> print(MeasuredState(output="tip z", value=0.31, loads=[pull], deviation=0.002).unit)
+    >>> print(MeasuredState(output="deflection z", value=0.31, loads=[pull], deviation=0.002).unit)
     m
     """
 
@@ -142,10 +152,9 @@ class MeasuredState(Measured):
     def __post_init__(self) -> None:
         super().__post_init__()
         object.__setattr__(self, "loads", loads_at_once(self.loads))
-        if self.output not in SteadyDerivatives.outputs:
+        if self.output not in OUTPUTS:
             raise ValueError(
-                f"output must be one of {', '.join(SteadyDerivatives.outputs)}, got "
-                f"{shown(self.output)}"
+                f"output must be one of {', '.join(OUTPUTS)}, got {shown(self.output)}"
             )
 
     @property
@@ -156,7 +165,7 @@ class MeasuredState(Measured):
     @property
     def unit(self) -> str:
         """Unit of the number."""
-        return SteadyDerivatives.units[SteadyDerivatives.outputs.index(self.output)]
+        return OUTPUTS[self.output]
 
     @property
     def together(self) -> tuple[Any, ...]:
@@ -171,5 +180,18 @@ class MeasuredState(Measured):
         first = several[0]
         state = steady_state(blade, first.omega, loads=first.loads, theory=theory)
         found = sensitivity(state, names)
-        rows = [found.outputs.index(one.output) for one in several]
-        return found.values[rows], found.derivatives[rows]
+        rows = [found.outputs.index(one.output.replace("deflection", "tip")) for one in several]
+        values, slopes = found.values[rows], found.derivatives[rows]
+        for k, one in enumerate(several):
+            if one.output.startswith("deflection"):
+                values[k] -= _unloaded(blade)[rows[k]]
+                slopes[k] -= [
+                    difference(p, _unloaded)[rows[k]] if p.moves else 0.0 for p in found.parameters
+                ]
+        return values, slopes
+
+
+def _unloaded(blade: Blade) -> FloatArray:
+    """Return the tip's place of the unloaded blade [m], (3,)."""
+    (place,), _ = space_unit(blade).unloaded(np.ones(1))
+    return np.asarray(blade.length * place)

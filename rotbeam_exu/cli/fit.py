@@ -36,8 +36,8 @@ def fit(
     ----------
     measured
         CSV files, each of one kind: natural frequencies, with the columns mode, omega [rpm],
-        frequency [Hz] and deviation [%]; or a number of the steady state, as tip_z [mm], under a
-        force fz [N] at x [m].
+        frequency [Hz] and deviation [%]; or a number of the steady state, as deflection_z [mm],
+        under a force fz [N] at x [m].
     free
         Numbers to fit, as EI2 EI3 m of the whole blade, or EI2[4] at station 4, counted from 0.
     prior

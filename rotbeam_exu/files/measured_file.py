@@ -7,15 +7,12 @@ from typing import Any
 
 from analytic import PointLoad
 from analytic.sensitivity import Measured, MeasuredFrequency, MeasuredState
-from analytic.sensitivity.steady import SteadyDerivatives
+from analytic.sensitivity.measured import OUTPUTS
 
 from .stations_file import columns_of
 
 _FORCES = ("fx", "fy", "fz")
-_STATES = {
-    output.replace(" ", "_"): unit
-    for output, unit in zip(SteadyDerivatives.outputs, SteadyDerivatives.units, strict=True)
-}
+_STATES = {output.replace(" ", "_"): unit for output, unit in OUTPUTS.items()}
 _EXAMPLE = "mode,omega [rpm],frequency [Hz],deviation [%]"
 
 
@@ -23,8 +20,9 @@ def measured_of(path: Path) -> list[Measured]:
     """Return what a CSV file has as measured: of one kind, a row each.
 
     Natural frequencies have the columns `mode`, `frequency` and, if known, `omega` and `deviation`.
-    Numbers of steady states have one column of `tip_x`, `tip_y`, `tip_z`, `twist`, `root_force_x`
-    and so on, and a force `fx`, `fy`, `fz` at the tip, or at a place `x`. Each has
+    Numbers of steady states have one column of `deflection_x`, `deflection_y`, `deflection_z`,
+    `tip_x`, `twist`, `root_force_x` and so on, and a force `fx`, `fy`, `fz` at the tip, or at a
+    place `x`. Each has
     its unit behind it, as `frequency [Hz]`; `deviation [%]` is of the value.
 
     Raises

@@ -27,9 +27,9 @@ def test_frequencies_with_their_units(tmp_path):
 
 
 def test_pulls(tmp_path):
-    one, other = read(tmp_path, "x [m],fz [kN],tip_z [mm]\n4,0.5,31\n8,0,0\n")
+    one, other = read(tmp_path, "x [m],fz [kN],deflection_z [mm]\n4,0.5,31\n8,0,0\n")
     load = PointLoad(force=(0.0, 0.0, 500.0), position=4.0)
-    assert one == MeasuredState(output="tip z", value=0.031, loads=[load])
+    assert one == MeasuredState(output="deflection z", value=0.031, loads=[load])
     assert other.loads == ()
     (moment,) = read(tmp_path, "omega [rad/s],root_moment_y [kN m]\n2,-3\n")
     assert (moment.output, moment.value, moment.omega) == ("root moment y", -3000.0, 2.0)

@@ -47,6 +47,22 @@ def test_exact_data_give_the_blade_that_made_them():
     np.testing.assert_allclose(again, linear_modes(blade, 0.0, 4).frequencies, rtol=1e-6)
 
 
+def test_a_deflection_is_from_the_unloaded_blade():
+    """The line of a bent blade, and its derivatives, are those of the tip less where it was."""
+    blade = STRIP.with_precone(0.1).with_prebend(0.05)
+    load = PointLoad(force=(0.0, 0.02, 0.01))
+    names = ["EI2", "precone", "m"]
+    state = sensitivity(steady_state(blade, 0.0, loads=[load]), names)
+    deflection = MeasuredState(output="deflection z", value=0.1, loads=[load])
+    (value,), (slopes,) = MeasuredState.computed([deflection], blade, Theory(), names)
+    start = steady_state(blade, 0.0).tip[2]
+    assert value == pytest.approx(state.values[2] - start, abs=1e-9)
+    assert slopes[0] == pytest.approx(state.of("tip z", "EI2"), rel=1e-9)
+    turned = (steady_state(blade.with_precone(0.1 + h), 0.0).tip[2] for h in (-1e-4, 1e-4))
+    away = np.diff([*turned])[0] / 2e-4
+    assert slopes[1] == pytest.approx(state.of("tip z", "precone") - away, abs=1e-6)
+
+
 def test_a_station_is_found_in_a_table():
     table = irregular(3, 0.01, 5)
     value = parameters_of(table, Theory())["EI2[1]"].value
@@ -153,7 +169,7 @@ def test_a_measured_frequency_passes_the_checks(values, sentence):
 
 
 def test_a_measured_state_passes_the_checks():
-    with pytest.raises(ValueError, match=r"output must be one of tip x, tip y, .*, got 'tip w'"):
+    with pytest.raises(ValueError, match=r"output must be one of deflection x, .*, got 'tip w'"):
         MeasuredState(output="tip w", value=0.1)
     with pytest.raises(TypeError, match="loads must be several"):
         MeasuredState(output="tip z", value=0.1, loads=PointLoad(force=(0, 0, 1)))
