@@ -249,7 +249,6 @@ class _Problem:
         computed, _ = self._answers(z)
         residuals, slopes = self._residuals(z), self._slopes(z)
         misfit = self._misfit(z)
-        share = float(self._deviations[0] / abs(self._targets[0]))
         unit = math.nan if math.isnan(misfit) and not self._stated else 1.0
         covariance, directions = _covariance(slopes, unit)
         inside = (z > low + 1e-6) & (z < high - 1e-6)
@@ -264,7 +263,7 @@ class _Problem:
             )
         if self._prior.size:
             directions = _covariance(slopes[: computed.size], unit)[1]
-        values = self._values(z)
+        values, first = self._values(z), abs(self._targets[0])
         return Fit(
             blade=self._changed(values),
             theory=self._theory,
@@ -274,7 +273,7 @@ class _Problem:
             measured=self._measured,
             computed=computed,
             residuals=residuals[: computed.size] * unit,
-            misfit=misfit if self._stated else share * misfit,
+            misfit=misfit if self._stated else misfit * float(self._deviations[0] / first),
             unknown=tuple(_sentence(way, self._before, values) for way in directions),
         )
 
