@@ -50,7 +50,7 @@ class SteadyDerivatives:
         values = _outputs(self._steady, q[None])[0]
         self.values = self._unit * _without_noise(values)
         by = self._steady.by()
-        self._potential = not by.follow and (by.push is None or not by.push[2].any())
+        self.potential = not by.follow and (by.push is None or not by.push[2].any())
         self._adjoint = self._adjoints()
         if self._steady.model.answers:
             self._steady = self._steady.onto(self._caused(), _SEEN)
@@ -89,7 +89,7 @@ class SteadyDerivatives:
 
     def to(self, parameter: Parameter) -> FloatArray:
         """Return the derivatives of all outputs to a parameter, in their units."""
-        if self._potential and not parameter.moves:
+        if self.potential and not parameter.moves:
             slopes = -self._sums.slopes(parameter)
         else:
             slopes = difference(parameter, self._anew, _CHANGE)
