@@ -148,14 +148,17 @@ def fit(
     require_blade(blade)
     several = _measured(measured)
     before = _free(blade, theory, free)
-    priors = _priors(prior, before)
+    priors = {
+        name: positive(f"the prior of {name}", one)
+        for name, one in _of_free("prior", prior, before).items()
+    }
     if (count := len(several) + len(priors)) < len(before):
         raise ValueError(
             f"{len(before)} numbers are free, and {count} are measured or have a prior: measure "
             "more, give priors, or free fewer"
         )
     problem = _Problem(blade, theory, before, several, priors)
-    low, high = _bounds(bounds or {}, before)
+    low, high = _bounds(_of_free("bounds", bounds, before), before)
     return problem.fitted(problem.solved(low, high), low, high)
 
 
@@ -347,24 +350,19 @@ def _free(blade: Blade, theory: Theory, free: Iterable[str]) -> list[Parameter]:
     return parameters
 
 
-def _priors(prior: Mapping[str, float] | None, free: list[Parameter]) -> dict[str, float]:
-    if not isinstance(prior or {}, Mapping):
-        raise TypeError(f"prior must be deviations by name, as {{'EI3': 0.05}}, got {shown(prior)}")
+def _of_free(what: str, given: object, free: list[Parameter]) -> Mapping[str, Any]:
+    """Return values by name, refusing numbers that are not free."""
+    if given is not None and not isinstance(given, Mapping):
+        raise TypeError(f"{what} must be by name, as {{'EI3': ...}}, got {shown(given)}")
     names = [one.name for one in free]
-    for name in prior or {}:
+    for name in given or {}:
         if name not in names:
-            raise ValueError(f"prior has {shown(name)}, which is not free: {', '.join(names)}")
-    return {name: positive(f"the prior of {name}", one) for name, one in (prior or {}).items()}
+            raise ValueError(f"{what} has {shown(name)}, which is not free: {', '.join(names)}")
+    return given or {}
 
 
-def _bounds(
-    bounds: Mapping[str, tuple[float, float]], free: list[Parameter]
-) -> tuple[FloatArray, FloatArray]:
+def _bounds(bounds: Mapping[str, Any], free: list[Parameter]) -> tuple[FloatArray, FloatArray]:
     """Return the least and largest changes over the sizes."""
-    names = [one.name for one in free]
-    for name in bounds:
-        if name not in names:
-            raise ValueError(f"bounds has {shown(name)}, which is not free: {', '.join(names)}")
     result = np.empty((2, len(free)))
     for k, one in enumerate(free):
         scaled = one.value > 0.0 and one.unit not in ("m", "rad")

@@ -138,8 +138,9 @@ def test_bad_input():
         (data, ["EI3", "m"], {}, ValueError, "2 numbers are free, and 1 are measured or have a p"),
         (data, ["EI3"], {"prior": {"m": 0.1}}, ValueError, "prior has 'm', which is not free: EI3"),
         (data, ["EI3"], {"prior": {"EI3": -1}}, ValueError, "the prior of EI3 must be positive"),
-        (data, ["EI3"], {"prior": 0.1}, TypeError, "prior must be deviations by name"),
+        (data, ["EI3"], {"prior": 0.1}, TypeError, "prior must be by name"),
         (data, ["EI3"], {"bounds": {"EI3": (2, 3)}}, ValueError, "do not hold its value 1"),
+        (data, ["EI3"], {"bounds": [1, 2]}, TypeError, "bounds must be by name, as"),
         (data, ["EI3"], {"bounds": {"EI3": 3}}, ValueError, "bounds of EI3 must be two numbers"),
         (data, ["EI3"], {"bounds": {"m": (0, 2)}}, ValueError, "bounds has 'm', which is not free"),
     ):
