@@ -20,7 +20,7 @@ from ..theory import Theory
 from ..threads import one_thread
 from .frequencies import FrequencyDerivatives
 from .orbits import OrbitDerivatives, ResponseDerivatives
-from .parameters import Parameter, parameters_of
+from .parameters import Parameter, parameters_by, parameters_of
 from .steady import SteadyDerivatives
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ class Sensitivity:
         Its numbers: names of modes; "tip x" and so on in the frame of `steady_state`, "twist",
         and "root force x" and "root moment x" with which the blade acts on the clamp; of orbits
         "frequency at a = 0.1", and "softening at a = 0.1", (1 - ω_NL/ω_n)/a²; of a forced response
-        "peak at 3.7 rad/s", |q|/L where it was asked for, and where it is greatest or least.
+        "peak at 3.7 rad/s", |q|/L at the frequencies given, and where it is greatest or least.
     units : tuple of str
         Of the outputs.
     values : ndarray (outputs,)
@@ -182,8 +182,6 @@ def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sens
      [ 0.314 -0.314]
      [ 0.407 -0.407]]
     """
-    if isinstance(parameters, str):
-        raise TypeError(f"parameters must be names, as [{parameters!r}], got {parameters!r}")
     kind = _KINDS.get(type(answer))
     if kind is None:
         raise TypeError(
@@ -192,13 +190,7 @@ def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sens
         )
     found = kind(answer)
     known = {name: found.parameters[name] for name in parameters_of(answer.blade, answer.theory)}
-    names = list(known if parameters is None else parameters)
-    if unknown := [name for name in names if name not in known]:
-        raise ValueError(
-            f"the blade has no parameter {', '.join(map(shown, unknown))}; it has "
-            f"{', '.join(known)}"
-        )
-    several = [known[name] for name in names]
+    several = parameters_by("parameters", known if parameters is None else parameters, known)
     columns = [found.to(one) for one in several]
     return Sensitivity(
         answer=answer,

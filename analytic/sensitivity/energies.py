@@ -128,7 +128,7 @@ class Energies:
     def _at_stations(self, family: str) -> FloatArray:
         """Return the derivatives to a family of numbers at all stations, (sums, stations).
 
-        A section has those of the stations beside it, between which they are linear.
+        A section has those of the stations at the ends of its cell, and is linear between them.
         """
         table = self.blade.table
         assert table is not None

@@ -19,7 +19,7 @@ from ..theory import BERNOULLI_EULER, Theory
 from ..threads import one_thread
 from ..warning import warn
 from .measured import Measured
-from .parameters import Parameter, parameters_of
+from .parameters import Parameter, parameters_by, parameters_of
 
 _LEAST = 0.02  # of a stiffness or a mass, to which a fit may go
 _UNKNOWN = 1.0  # standard deviation over a parameter's size, of a direction that data do not tell
@@ -109,7 +109,7 @@ def fit(
         Where the fit begins, and which the priors are about.
     measured : iterable of Measured
         `MeasuredFrequency` and `MeasuredState`, with a deviation each, or none at all: then all are
-        taken to be off by the same part, which the misfit tells.
+        taken to be off by the same part, which is the misfit.
     free : iterable of str
         Names of parameters, out of `parameters_of`.
     prior : mapping, optional
@@ -213,7 +213,7 @@ class _Problem:
         return self._known[z.tobytes()]
 
     def solved(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Return the changes whose squares are least, near the start where nothing tells them."""
+        """Return the changes of least squares; what is left open stays near the start."""
         held = _HELD * np.eye(low.size)
 
         def residuals(z: FloatArray) -> FloatArray:
@@ -228,7 +228,7 @@ class _Problem:
             misfit = self._misfit(z)
             if self._stated or math.isnan(misfit):
                 break
-            # What the data are off by, beside priors that are as given.
+            # The scatter of the data; priors stay as given.
             least = _LEAST_SCATTER * np.abs(self._targets)
             self._deviations = np.maximum(misfit * self._deviations, least)
         return z
@@ -333,18 +333,13 @@ def _measured(measured: Iterable[Measured]) -> tuple[Measured, ...]:
 
 
 def _free(blade: Blade, theory: Theory, free: Iterable[str]) -> list[Parameter]:
-    if isinstance(free, str):
-        raise TypeError(f"free must be names, as [{free!r}], got {free!r}")
-    known, names = parameters_of(blade, theory), list(free)
-    if not names:
+    parameters = parameters_by("free", free, parameters_of(blade, theory))
+    if not parameters:
         raise ValueError("nothing is free: name numbers of the blade, as in ['EI2', 'EI3']")
-    for k, name in enumerate(names):
-        if name not in known:
-            raise ValueError(f"the blade has no parameter {shown(name)}; it has {', '.join(known)}")
-        if name in names[:k]:
-            raise ValueError(f"free has {name} twice")
-    parameters = [known[name] for name in names]
-    for one in parameters:
+    names = [one.name for one in parameters]
+    for k, one in enumerate(parameters):
+        if one.name in names[:k]:
+            raise ValueError(f"free has {one.name} twice")
         if one.family in names:
             raise ValueError(f"{one.family} changes {one.name}, too: free one of them")
     return parameters

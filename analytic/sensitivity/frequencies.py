@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Callable
 
 import numpy as np
 
 from ..arrays import FloatArray
+from ..blade import Blade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.state import Driven
 from ..exact.linear.families import LinearModes
 from ..exact.linear.modes import linear_modes
 from ..input_checks import shown
+from ..theory import Theory
 from .energies import AROUND, SWING, Energies, States, difference
 from .parameters import Parameter
 
+MOST = 24
+"""Modes among which one is sought by its name."""
+_FIRST = 6
 _PHASES = 8  # in a period: averages are exact up to the seventh harmonic
 _STIFF, _SAME = 1e4, 1e-4  # EI out of the plane over that in it, and what it may change
 
@@ -113,9 +118,17 @@ def in_space(modes: LinearModes) -> LinearModes:
             f"with a stiff section out of its plane the blade has other modes, by {away:.1g}: give "
             "the section by with_section_out_of_plane"
         )
-    return replace(
-        several,
-        frequencies=several.frequencies[of],
-        shares=several.shares[of],
-        coordinates=several.coordinates[of],
-    )
+    return several.among(of)
+
+
+def modes_until(
+    enough: Callable[[LinearModes], bool], blade: Blade, omega: float, theory: Theory,
+    count: int = _FIRST,
+) -> LinearModes:  # fmt: skip
+    """Return as many of the lowest modes as are enough, or those to MOST and to twice `count`."""
+    most = max(MOST, 2 * count)
+    while True:
+        modes = linear_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
+        if count == most or enough(modes):
+            return modes
+        count = min(2 * count, most)

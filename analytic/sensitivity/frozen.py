@@ -8,7 +8,7 @@ for every stiffness and mass.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,8 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.basis import Masses, StrainFunctions, Strains
+from ..exact.continuum.rotation import SteadyBlade
+from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.unit import space_unit
 from ..quadrature import Grid
 from ..station_section import hat
@@ -94,6 +96,12 @@ def frozen(functions: StrainFunctions, of: Blade, blade: Blade) -> FrozenFunctio
         force=blade.bending_stiffness / of.bending_stiffness,
         inertia=blade.mass_per_length / of.mass_per_length,
     )  # fmt: skip
+
+
+def frozen_blade(steady: SteadyBlade, of: Blade, blade: Blade) -> SteadyBlade:
+    """Return the equations of another blade in space, at the speed and loads of the blade `of`."""
+    model = SpaceContinuum(frozen(steady.model.functions, of, blade))
+    return replace(steady, model=model, near=steady.equilibrium, given=None)
 
 
 @dataclass(frozen=True)

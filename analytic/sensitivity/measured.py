@@ -11,13 +11,13 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.unit import space_unit
-from ..exact.linear.modes import linear_modes
 from ..exact.linear.steady_state import steady_state
 from ..input_checks import finite_number, positive, rotation_speed, shown, whole_number
 from ..loads import Load, loads_at_once
 from ..theory import Theory
 from .derivatives import sensitivity
 from .energies import difference
+from .frequencies import MOST, modes_until
 from .steady import SteadyDerivatives
 
 OUTPUTS = {
@@ -25,7 +25,6 @@ OUTPUTS = {
     **dict(zip(SteadyDerivatives.outputs, SteadyDerivatives.units, strict=True)),
 }
 """Numbers of a steady state that are measured, with their units."""
-_FIRST, _MOST = 6, 24  # modes among which a measured one is sought
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +91,7 @@ class MeasuredFrequency(Measured):
         super().__post_init__()
         positive("value", self.value)
         if not isinstance(self.mode, str):
-            whole_number("mode", self.mode, most=_MOST)
+            whole_number("mode", self.mode, most=MOST)
 
     @property
     def label(self) -> str:
@@ -105,23 +104,23 @@ class MeasuredFrequency(Measured):
         several: Sequence[Any], blade: Blade, theory: Theory, names: Sequence[str]
     ) -> tuple[FloatArray, FloatArray]:
         """Return the frequencies and their derivatives."""
-        asked = [one.mode for one in several]
-        count = max([_FIRST, *(mode for mode in asked if not isinstance(mode, str))])
-        while True:
-            modes = linear_modes(
-                blade, several[0].omega, count, theory=theory, functions=max(20, 2 * count)
+        named = [one.mode for one in several if isinstance(one.mode, str)]
+        highest = max((one.mode for one in several if not isinstance(one.mode, str)), default=1)
+        omega = several[0].omega
+        modes = modes_until(
+            lambda modes: len(modes.names) >= highest and {*named} <= {*modes.names},
+            blade, omega, theory,
+        )  # fmt: skip
+        if missing := [name for name in named if name not in modes.names]:
+            raise ValueError(
+                f"the lowest {MOST} modes at {omega:g} rad/s have none of the name "
+                f"{shown(missing[0])}; they are {', '.join(modes.names)}"
             )
-            missing = [mode for mode in asked if isinstance(mode, str) and mode not in modes.names]
-            if not missing:
-                break
-            if count == _MOST:
-                raise ValueError(
-                    f"the lowest {_MOST} modes at {several[0].omega:g} rad/s have none of the name "
-                    f"{shown(missing[0])}; they are {', '.join(modes.names)}"
-                )
-            count = min(2 * count, _MOST)
         found = sensitivity(modes, names)
-        rows = [modes.names.index(m) if isinstance(m, str) else m - 1 for m in asked]
+        rows = [
+            modes.names.index(one.mode) if isinstance(one.mode, str) else one.mode - 1
+            for one in several
+        ]
         return found.values[rows], found.derivatives[rows]
 
 

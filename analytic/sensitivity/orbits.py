@@ -22,17 +22,15 @@ from ..exact.continuum.rotation import BladeOrbit, SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.driven.forced_orbits import ForcedResponse
 from ..exact.free.orbits import Orbits
-from ..exact.linear.modes import linear_modes
 from ..methods.fourier import waves
 from ..methods.harmonic_balance import jacobian, projected
 from ..theory import Theory
 from .energies import difference
-from .frequencies import FrequencyDerivatives
-from .frozen import frozen
+from .frequencies import FrequencyDerivatives, in_space, modes_until
+from .frozen import frozen_blade
 from .parameters import Parameter, parameters_of
 
 _CHANGE = 1e-4  # of a parameter over its size
-_FIRST = 6  # modes among which that of the orbits is sought
 
 
 class OrbitDerivatives:
@@ -58,8 +56,8 @@ class OrbitDerivatives:
             for k in range(len(self._rows))
         ]
         frequency = self._orbits.blade.frequency_scale * np.array(slopes)
-        linear, row = self._linear
-        of_linear = linear.to(linear.parameters[parameter.name])[row] / linear.values[row]
+        linear = self._linear
+        (of_linear,) = linear.to(linear.parameters[parameter.name]) / linear.values
         change = frequency / self._orbits.frequency - of_linear
         return np.concatenate((frequency, -self._over * change / self._squares))
 
@@ -127,21 +125,16 @@ def _system(
     """Return the same equations of another blade, and its unit of time over that of the orbits'."""
     model = system.model
     if isinstance(model, SpaceContinuum):
-        other = SpaceContinuum(frozen(model.functions, of, blade))
-        return replace(system, model=other, near=system.equilibrium, given=None), 1.0
+        return frozen_blade(system, of, blade), 1.0
     unit = of.frequency_scale / blade.frequency_scale
     bending, axial, *_ = model.families
     planar = blade_continuum(blade, theory, bending, axial)
     return replace(system, model=planar, rate=unit * system.rate, near=None, given=None), unit
 
 
-def _linear(orbits: Orbits) -> tuple[FrequencyDerivatives, int]:
-    """Return the derivatives of the linear modes, and the place of that of the orbits."""
-    count = _FIRST
-    while True:
-        modes = linear_modes(
-            orbits.blade, orbits.omega, count, theory=orbits.theory, functions=max(20, 2 * count)
-        )
-        if orbits.mode in modes.names:
-            return FrequencyDerivatives(modes), modes.names.index(orbits.mode)
-        count *= 2
+def _linear(orbits: Orbits) -> FrequencyDerivatives:
+    """Return the derivatives of the linear mode that the orbits grow out of."""
+    modes = modes_until(
+        lambda modes: orbits.mode in modes.names, orbits.blade, orbits.omega, orbits.theory
+    )
+    return FrequencyDerivatives(in_space(modes).among([modes.names.index(orbits.mode)]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 from ..arrays import FloatArray, in_units
 from ..blade import Blade
 from ..blade_checks import require_blade
+from ..input_checks import shown
 from ..station_section import MASSES, STIFFNESSES, StationSection, about_centers, hat, nested
 from ..theory import Theory, require_theory
 
@@ -98,6 +99,21 @@ def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
     require_theory(theory)
     found = _of_table(blade, blade.table, theory) if blade.table else _of_section(blade)
     return {one.name: one for one in found}
+
+
+def parameters_by(
+    what: str, names: Iterable[str], known: Mapping[str, Parameter]
+) -> list[Parameter]:
+    """Return parameters by their names, refusing those that are not known."""
+    if isinstance(names, str):
+        raise TypeError(f"{what} must be names, as [{names!r}], got {names!r}")
+    several = list(names)
+    if unknown := [name for name in several if name not in known]:
+        raise ValueError(
+            f"the blade has no parameter {', '.join(map(shown, unknown))}; it has "
+            f"{', '.join(known)}"
+        )
+    return [known[name] for name in several]
 
 
 def _of_section(blade: Blade) -> Iterator[Parameter]:

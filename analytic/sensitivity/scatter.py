@@ -5,24 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
-from ..exact.continuum.rotation import SteadyBlade
-from ..exact.continuum.space import SpaceContinuum
 from ..exact.linear.campbell import Campbell
 from ..exact.linear.families import LinearModes, modes_of
-from ..exact.linear.modes import linear_modes
 from ..input_checks import not_negative, positive, shown, whole_number
 from ..lazily import stats
 from ..plotting import tornado
 from ..threads import one_thread
 from .derivatives import Answer, Sensitivity, place_of, sensitivity
-from .frequencies import in_space, require_modes
-from .frozen import frozen
+from .frequencies import in_space, modes_until, require_modes
+from .frozen import frozen_blade
 from .parameters import Parameter, parameters_of
 
 if TYPE_CHECKING:
@@ -208,16 +206,16 @@ def campbell_spread(
         names += [one.name for one in known.values() if one.family in names]
     rows = []
     for omega, frequencies in zip(diagram.omegas.tolist(), diagram.frequencies, strict=True):
-        count = frequencies.size
-        while True:
-            modes = linear_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
-            if modes.frequencies[-1] > (1.0 - _SAME) * frequencies.max():
-                break
-            count += 2
+        reached = partial(_reached, (1.0 - _SAME) * frequencies.max())
+        modes = modes_until(reached, blade, omega, theory, frequencies.size)
         away = np.abs(modes.frequencies / frequencies[:, None] - 1.0)
         found = spread(sensitivity(modes, names), scatter, length)
         rows.append(found.deviations[away.argmin(axis=1)])
     return np.array(rows)
+
+
+def _reached(frequency: float, modes: LinearModes) -> bool:
+    return bool(modes.frequencies[-1] > frequency)
 
 
 @one_thread
@@ -284,9 +282,7 @@ def _changed(blade: Blade, modes: LinearModes, name: str, change: FloatArray) ->
 
 def _frequencies(modes: LinearModes, blade: Blade) -> list[float]:
     """Return the frequencies of the same modes of another blade [rad/s]."""
-    steady = modes.steady
-    functions = frozen(steady.model.functions, modes.blade, blade)
-    other = SteadyBlade(SpaceContinuum(functions), steady.rate, near=steady.equilibrium)
+    other = frozen_blade(modes.steady, modes.blade, blade)
     found = modes_of(modes.blade, modes.omega, modes.theory, other)
     by_name = dict(zip(found.names, found.frequencies.tolist(), strict=True))
     return [by_name.get(name, math.nan) for name in modes.names]

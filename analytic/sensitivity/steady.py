@@ -10,7 +10,7 @@ moves, it is of the residual: ∂y/∂p less λ·∂r/∂p, with λ of the tange
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
@@ -22,8 +22,8 @@ from ..exact.continuum.state import Driven
 from ..exact.linear.steady_state import SteadyState
 from ..lazily import spatial
 from .energies import AROUND, SWING, Energies, States, difference
-from .frozen import frozen
-from .parameters import Parameter
+from .frozen import frozen_blade
+from .parameters import Parameter, parameters_of
 
 _STEP = 1e-5  # of coordinates, which are of the size of one
 _CHANGE = 1e-4  # of a parameter over its size, where residuals are compared
@@ -54,11 +54,16 @@ class SteadyDerivatives:
         self._adjoint = self._adjoints()
         if self._steady.model.answers:
             self._steady = self._steady.onto(self._caused(), _SEEN)
-            q, self._adjoint = self._steady.equilibrium, self._adjoints()
+            self._adjoint = self._adjoints()
+        self._theory = state.theory
+        self.parameters = parameters_of(self._blade, self._theory)
+
+    @cached_property
+    def _sums(self) -> Energies:
+        q = self._steady.equilibrium
         ways = [self._along(k, way) for k, way in enumerate(self._adjoint.T)]
         squares = np.stack([np.outer(way, q) + np.outer(q, way) for way in self._adjoint.T])
-        self._sums = Energies(self._steady.model, self._blade, state.theory, ways, squares)
-        self.parameters = self._sums.parameters
+        return Energies(self._steady.model, self._blade, self._theory, ways, squares)
 
     def _adjoints(self) -> FloatArray:
         """Return strains that go with the force or motion of each output, (n, outputs)."""
@@ -97,8 +102,7 @@ class SteadyDerivatives:
 
     def _anew(self, blade: Blade) -> FloatArray:
         """Return outputs less the adjoint's virtual work, in another blade at the same strains."""
-        model = SpaceContinuum(frozen(self._steady.model.functions, self._blade, blade))
-        other = replace(self._steady, model=model, given=None)
+        other = frozen_blade(self._steady, self._blade, blade)
         q = self._steady.equilibrium[None]
         still = np.zeros_like(q)
         work: FloatArray = other.residual(q, still, still) @ self._adjoint

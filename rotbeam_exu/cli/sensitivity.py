@@ -15,7 +15,7 @@ from analytic.exact.linear.steady_state import SteadyState
 from analytic.input_checks import rotation_speed, whole_number
 
 from .job import Flag, Results
-from .options import Number, Whole
+from .options import Number, Numbers, Whole
 from .output import bar, formatted, print_columns, print_text
 from .request import Request, uses
 
@@ -32,7 +32,7 @@ def sensitivity(
     omega: Number | None = None,
     count: Whole = 4,
     steady: Flag = False,
-    amplitude: Annotated[tuple[float, ...], Parameter(consume_multiple=True)] = (),
+    amplitude: Numbers = None,
     rows: Whole = 15,
     scatter: Annotated[tuple[str, ...], Parameter(consume_multiple=True)] = (),
     length: Number | None = None,

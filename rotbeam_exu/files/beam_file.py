@@ -147,8 +147,6 @@ def _number(name: str, value: object) -> Any:
 
 def _read_toml(source: Path) -> dict[str, Any]:
     """Return the tables of a TOML file; refuse other files."""
-    if not source.is_file():
-        raise FileNotFoundError(f"there is no file {source}")
     text = text_of(source)
     try:
         return tomllib.loads(text)

@@ -40,8 +40,6 @@ def load_table(path: Path, **more: Any) -> LoadTable:
     ValueError
         If a column is missing or unknown, or its unit, a cell is no number, or a row is not there.
     """
-    if not path.is_file():
-        raise FileNotFoundError(f"there is no file {path}")
     columns = columns_of(path, _UNITS, "x [m],fx [N/m],fy [N/m],fz [N/m]")
     if "x" not in columns or not columns.keys() & _COMPONENTS.keys():
         raise ValueError(f"{path} lacks the column x, or any of {', '.join(_COMPONENTS)}")

@@ -22,19 +22,16 @@ def measured_of(path: Path) -> list[Measured]:
     Natural frequencies have the columns `mode`, `frequency` and, if known, `omega` and `deviation`.
     Numbers of steady states have one column of `deflection_x`, `deflection_y`, `deflection_z`,
     `tip_x`, `twist`, `root_force_x` and so on, and a force `fx`, `fy`, `fz` at the tip, or at a
-    place `x`. Each has
-    its unit behind it, as `frequency [Hz]`; `deviation [%]` is of the value.
+    place `x`. Each has its unit behind it, as `frequency [Hz]`; `deviation [%]` is of the value.
 
     Raises
     ------
     ValueError
         If a column is missing or unknown, or its unit, or a cell is no number.
     """
-    if not path.is_file():
-        raise FileNotFoundError(f"there is no file {path}")
     units = {"mode": "", "frequency": "rad/s", **_STATES, "omega": "rad/s", "deviation": "1"}
     units |= {"x": "m"} | dict.fromkeys(_FORCES, "N")
-    columns = columns_of(path, units, _EXAMPLE, text="mode")
+    columns = columns_of(path, units, _EXAMPLE)
     kinds = ("frequency", *_STATES)
     measured = [name for name in kinds if name in columns]
     if len(measured) != 1:

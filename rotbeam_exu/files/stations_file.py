@@ -57,8 +57,6 @@ def blade_of_csv(path: Path) -> Blade:
     ValueError
         If a column is missing or unknown, or its unit, or a cell is no number.
     """
-    if not path.is_file():
-        raise FileNotFoundError(f"there is no file {path}")
     columns = columns_of(path, _UNITS, "x [m],EA [N],EI [N m^2],m [kg/m]")
     planar = "EI" in columns
     needed = ("x", "EA", "EI", "m") if planar else ("x", "EA", "GJ", "EI2", "EI3", "m")
@@ -96,6 +94,8 @@ def _planar(columns: dict[str, FloatArray], path: Path) -> Blade:
 
 def text_of(path: Path) -> str:
     """Return the text of a file in UTF-8, without the mark that some editors begin it with."""
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no file {path}")
     try:
         return path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -105,13 +105,11 @@ def text_of(path: Path) -> str:
         ) from None
 
 
-def columns_of(
-    path: Path, units: Mapping[str, str], example: str, text: str = ""
-) -> dict[str, FloatArray]:
+def columns_of(path: Path, units: Mapping[str, str], example: str) -> dict[str, FloatArray]:
     """Return the columns of a CSV in SI by name; refuse what is no table of numbers.
 
-    Names have their `units`; the sentence on a file without a header has an `example` of one. One
-    column may be of `text`, without a unit.
+    Names have their `units`, none where a column is of text; the sentence on a file without a
+    header has an `example` of one.
     """
     reader = csv.reader(io.StringIO(text_of(path), newline=""))
     try:
@@ -129,9 +127,9 @@ def columns_of(
                 "decimal point, as 1.5, where it has a decimal comma"
             )
     return {
-        name: np.array([row[place].strip() for _, row in rows])
-        if name == text
-        else factor * np.array([_number(row[place], name, n, path) for n, row in rows])
+        name: factor * np.array([_number(row[place], name, n, path) for n, row in rows])
+        if units[name]
+        else np.array([row[place].strip() for _, row in rows])
         for place, (name, factor) in enumerate(factors.items())
     }
 

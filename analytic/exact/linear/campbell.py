@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PchipInterpolator
 
 from ...arrays import FloatArray
 from ...blade import Blade
 from ...blade_checks import warn_if_rpm
 from ...input_checks import finite_values, require_ascending, rotation_speed, whole_number
+from ...lazily import interpolate
 from ...plotting import DASHES, apart, axes_or_new, cycled, free_place
 from ...settled import require_tolerance
 from ...theory import BERNOULLI_EULER, Theory
@@ -108,7 +108,7 @@ class Campbell:
         frequencies = scale * _frequencies(self._between.way(speeds / scale, self._places))
         drawn = np.union1d(np.linspace(speeds[0], speeds[-1], _DRAWN), speeds)
         # Squares of frequencies are nearly straight over those of the speed.
-        squares = PchipInterpolator(speeds**2, frequencies**2)(drawn**2)
+        squares = interpolate.PchipInterpolator(speeds**2, frequencies**2)(drawn**2)
         return drawn, np.sqrt(squares)
 
     def plot(

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...blade import Blade
@@ -145,11 +145,15 @@ class LinearModes:
                 "torsion need a section that is known out of the plane, and no motion without "
                 f"stiffness or inertia has modes; the lowest are {', '.join(names[:4])}"
             )
+        return self.among(of)
+
+    def among(self, places: Sequence[int] | NDArray[np.intp]) -> LinearModes:
+        """Return some of the modes, by their places."""
         return replace(
             self,
-            frequencies=self.frequencies[of],
-            shares=self.shares[of],
-            coordinates=self.coordinates[of],
+            frequencies=self.frequencies[places],
+            shares=self.shares[places],
+            coordinates=self.coordinates[places],
         )
 
 

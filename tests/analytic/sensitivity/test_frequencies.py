@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic import Beam, Theory, linear_modes
+from analytic import Beam, Blade, Rectangle, Theory, linear_modes
 from analytic.sensitivity import parameters_of, sensitivity
 from tests.beams import irregular, unit_beam
 
@@ -133,6 +133,18 @@ def test_many_modes_of_a_planar_beam(theory):
     modes = linear_modes(beam, 0.0, 9, theory=theory)
     found = sensitivity(modes, ["EA", "EI3"]).relative.sum(axis=1)
     np.testing.assert_allclose(found, 0.5, atol=1e-5)
+
+
+def test_where_a_mass_lowers_flap_2():
+    """As the page says: most near the middle of this blade; at the tip a mass raises it."""
+    shapes = [Rectangle(height=0.08, width=0.012)] * 6
+    x = np.linspace(0.0, 2.0, 6)
+    rotor = Blade.from_shapes(x, shapes, youngs_modulus=7e10, density=2700.0)
+    names = [f"m[{k}]" for k in range(1, 6)]
+    found = sensitivity(linear_modes(rotor, 60.0, 4), names)
+    per_mass = found.derivatives[found.outputs.index("flap 2")] / [0.4, 0.4, 0.4, 0.4, 0.2]
+    assert np.argmin(per_mass) == 1
+    assert np.all(per_mass[-2:] > 0.0)
 
 
 def test_what_is_asked_by_name():
