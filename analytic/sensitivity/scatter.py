@@ -38,7 +38,7 @@ class Spread:
     Attributes
     ----------
     answer : LinearModes, SteadyState or Orbits
-    outputs : tuple of str
+    outputs, units : tuple of str
         Its numbers, as of `Sensitivity`.
     values : ndarray (outputs,)
     parameters : tuple of str
@@ -58,6 +58,7 @@ class Spread:
 
     answer: Answer
     outputs: tuple[str, ...]
+    units: tuple[str, ...]
     values: FloatArray
     parameters: tuple[str, ...]
     deviations: FloatArray
@@ -81,7 +82,7 @@ class Spread:
         """
         row = place_of(output, self.outputs)
         parts = self.deviations[row] * np.sqrt(self.shares[row])
-        return tornado(self.parameters, parts, f"± of {self.outputs[row]}", ax)
+        return tornado(self.parameters, parts, f"± of {self.outputs[row]} [{self.units[row]}]", ax)
 
 
 def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = math.inf) -> Spread:
@@ -127,6 +128,7 @@ def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = mat
     return Spread(
         answer=found.answer,
         outputs=found.outputs,
+        units=found.units,
         values=found.values,
         parameters=tuple(deviations),
         deviations=np.sqrt(whole),

@@ -131,7 +131,9 @@ def test_pictures_have_the_largest_on_top(modes):
     order = [f"{found.parameters[k].name} {found.parameters[k].change}" for k in largest.argsort()]
     assert names == order
     shares = spread(found, {"EI2": 0.01, "m": 0.05})
-    bars = shares.plot("lag 1").patches
+    axes = shares.plot("lag 1")
+    bars = axes.patches
+    assert axes.get_xlabel() == "± of lag 1 [rad/s]"
     widths = np.array([bar.get_width() for bar in bars])
     assert np.sqrt(np.sum(widths**2)) == pytest.approx(shares.deviations[row])
     with pytest.raises(ValueError, match="there is no 'lag 9': known are flap 1, lag 1"):
