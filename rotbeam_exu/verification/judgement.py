@@ -12,7 +12,7 @@ from analytic.threads import one_thread
 
 from .case import TIP, Asked, Case
 from .cases import CASES
-from .convergence import Convergence, Order, converged
+from .convergence import LEAST_SHARE, Convergence, Order, converged
 from .history import Histories, judged_apart, mending
 from .outcomes import Finding, Outcome, finding_of, worst_of
 from .references import Reference, reference
@@ -60,7 +60,7 @@ class Judgement:
         By name of the case, the reference that was used.
     remarks : dict
         By name of the case, a sentence on each run that failed or is a copy, which is not judged,
-        and one on how much the integrator damps.
+        on how much the integrator damps, and on each order that is lower than declared.
     asked : tuple of str
         All cases that might have been submitted.
     """
@@ -211,6 +211,7 @@ def judged(
             (quantity,) = case.quantities
             finding, limits = _of_table(submission, truth, THRESHOLDS[quantity], frequencies)
             findings[name] = {quantity: finding}
+            remarks[name] = _missed_orders(finding, quantity)
             frequencies.update(limits if case.asked is Asked.FREQUENCIES else {})
             continue
         handed = [run for run in submission.runs if run.case == name]
@@ -223,6 +224,7 @@ def judged(
         )
         findings[name] = _of_histories(histories[name], frequencies)
         remarks[name] += histories[name].losses if case.oscillates else []
+        remarks[name] += _missed_orders(findings[name]["history"], "q(t)")
     required = [name for name in all_cases if not only or name in only]
     names = [name for name in required if name in findings]
     return Judgement(
@@ -233,6 +235,24 @@ def judged(
         remarks={name: remarks[name] for name in names if remarks.get(name)},
         asked=tuple(required),
     )
+
+
+def _missed_orders(finding: Finding, quantity: str) -> list[str]:
+    """Return a sentence on each order that is lower than the declared one."""
+    orders = finding.runs.orders if finding.runs is not None else {}
+    return [
+        f"{quantity} converges in the {name} by order {order.value:.1f}, "
+        f"{order.declared:g} is declared: {_LOW[name]}"
+        for name, order in orders.items()
+        if order.declared and order.value + order.bar < LEAST_SHARE * order.declared
+    ]
+
+
+_LOW = {
+    "mesh": "look for a mass, a load or a clamp that is of lower order than the element",
+    "step": "look for a motion of the clamp or a load that is taken at the wrong end of the step",
+}
+"""The usual causes of a low order, by what is refined."""
 
 
 def _undecided(case: Case, note: str) -> dict[str, Finding]:

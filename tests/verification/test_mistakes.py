@@ -5,8 +5,9 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
-from analytic import FourierRamp, SpeedTable, SpinUp, linear_modes, spin_up_response
+from analytic import Blade, FourierRamp, SpeedTable, SpinUp, linear_modes, spin_up_response
 from analytic.exact.continuum.state import Driven
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import converged
@@ -23,6 +24,7 @@ from rotbeam_exu.verification.submission import (
     Run,
     Submission,
 )
+from rotbeam_exu.verification.verify import verify
 
 S1 = replace(CASES["S1"], duration=6.0)
 TIME = np.arange(0.0, 6.0, 0.02)
@@ -96,13 +98,14 @@ def test_a_ramp_that_is_not_that_of_eq_1_is_not_told_to_be():
 def test_a_force_that_is_left_out(named, force):
     q = without(force, S1, TIME)
     assert named(q) == force
-    assert np.ptp(q[S1.ramp_time < TIME]) > 0.1 * np.ptp(q)  # it swings on after the ramp
+    if force != "no Euler force":  # without which nothing bends the blade
+        assert np.ptp(q[S1.ramp_time < TIME]) > 0.1 * np.ptp(q)  # it swings on after the ramp
 
 
 @pytest.fixture(params=["S1", "S1+h"])
 def work(request):
     """Return coordinates, their rates, and a function: the work of a force, that of the rest."""
-    case, model = CASES[request.param], Lacking(CASES[request.param], {1.0: 1.0})
+    case, model = CASES[request.param], Lacking(CASES[request.param], {(1.0, 1.0): 1.0})
     rng = np.random.default_rng(1)
     q, q_dot, q_ddot = 0.1 * rng.standard_normal((3, 1, model.size))
 
@@ -136,6 +139,14 @@ def test_the_centrifugal_force_has_a_potential(work):
     assert force == pytest.approx(gradient, rel=1e-5, abs=1e-6 * np.abs(force).max())
 
 
+def test_euler_s_force_is_that_of_the_acceleration(work):
+    """It is proportional to θ̈, whatever the speed and the motion; the rest does not know θ̈."""
+    _, _, q_dot, of = work
+    force, rest = of("no Euler force", Driven(2.0, 0.7))
+    assert of("no Euler force", Driven(5.0, 1.4), 3.0 * q_dot)[0] == pytest.approx(2.0 * force)
+    assert of("no Euler force", Driven(2.0, -5.0))[1] == pytest.approx(rest, rel=1e-12)
+
+
 def test_without_the_centrifugal_force_a_slow_ramp_bends_as_a_load_does():
     """q = -(11/120) ρA θ̈ L⁵/EI at the middle of the ramp; stiffened a sixth less."""
     slow = replace(S1, motion=SpinUp(omega=6.0, ramp_time=60.0), duration=30.0)
@@ -147,6 +158,69 @@ def test_without_the_centrifugal_force_a_slow_ramp_bends_as_a_load_does():
     assert q[-1] == pytest.approx(-static, rel=1e-2)
     stiffened = spin_up_response(beam, slow.motion, time, tolerance=1e-3).q[-1]
     assert abs(stiffened) < 0.9 * static
+    # Nothing else bends a straight blade, but for Coriolis' force as it stretches.
+    assert np.abs(without("no Euler force", slow, time)).max() < 1e-3 * static
+
+
+@pytest.mark.parametrize("delay", [-2e-3, 1e-3, 5e-3, 0.05])
+def test_a_delay_is_measured_whether_it_passes_or_not(exact, delay):
+    """1 and 2 ms pass; the step is 4 ms, so that none of them is one."""
+    q = np.interp(TIME - delay, TIME, exact.q) if abs(delay) > 0.01 else shifted(exact.q, delay)
+    found = mistake_in_history(S1, TIME, q, exact.q, step=4e-3)
+    when = "late" if delay > 0.0 else "early"
+    assert found is not None
+    assert f"q(t) is {1e3 * abs(delay):.2g} ms {when}: let t = 0" in found.said
+
+
+def test_one_step_s_lag_is_named(exact):
+    found = mistake_in_history(S1, TIME, shifted(exact.q, 4e-3), exact.q, step=4e-3)
+    assert "q(t) is 4 ms late, one step" in found.said
+    found = mistake_in_history(S1, TIME, np.r_[0.0, exact.q[:-1]], exact.q, step=4e-3)
+    assert "q(t) is 20 ms late, one sample" in found.said
+
+
+def shifted(q, delay):
+    return CubicSpline(TIME, q)(np.maximum(TIME - delay, 0.0))
+
+
+@pytest.mark.parametrize(("mass", "stiffness"), [(1.02, 1.0), (1.0, 0.97), (2.0, 1.0), (0.5, 1.0)])
+def test_a_mass_or_a_stiffness_that_is_off_is_measured(mass, stiffness):
+    """Of histories by their frequency; the code has an error of 1e-3 of its own."""
+    time = np.arange(0.0, 12.0, 0.02)
+    exact = spin_up_response(S1.blade, S1.motion, time, tolerance=1e-4).q
+    section = replace(
+        S1.blade.section, mass_per_length=mass * S1.blade.mass_per_length,
+        bending_stiffness=stiffness * S1.blade.bending_stiffness,
+    )  # fmt: skip
+    other = Blade(length=LENGTH, section=section)
+    q = spin_up_response(other, S1.motion, time, tolerance=1e-4).q
+    q = q * (1.0 + 1e-3 * np.sin(5.0 * time))
+    found = mistake_in_history(S1, time, q, exact)
+    assert found.name == "mass"
+    stated = float(found.said.split()[3])
+    assert stated == pytest.approx(mass / stiffness, rel=2e-3)
+
+
+@pytest.mark.parametrize("speeds", [(0.0,), (0.0, 2.0, 6.0), (4.0, 8.0)])
+def test_frequencies_of_another_mass(speeds):
+    """ω of g times the mass is that of √g times the speed over √g: here of a blade that has it."""
+    section = replace(S1.blade.section, mass_per_length=1.1 * S1.blade.mass_per_length)
+    other = Blade(length=LENGTH, section=section)
+    found = mistake_in_frequencies(
+        lambda w, speed: linear_modes(other, speed, 1).frequencies[0], speeds
+    )
+    assert found == "mass"
+
+
+def test_an_order_that_is_lower_than_declared_is_told(made_of_the_exact_answer):
+    """Of order two in the mesh where four are declared; the step's is as declared."""
+    entry = made_of_the_exact_answer(elements=32, order=4.0)
+    (remarks,) = verify(
+        entry, spin_up=SpinUp(omega=6.0, ramp_time=3.0), duration=9.0
+    ).remarks.values()
+    assert [one.partition(", ")[0] for one in remarks] == [
+        "q(t) converges in the mesh by order 2.0"
+    ]
 
 
 @pytest.mark.parametrize(

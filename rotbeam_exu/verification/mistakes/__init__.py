@@ -42,13 +42,15 @@ def mistakes_in(
                 progress(name, done, len(judgement.findings))
             case, histories = CASES[name], judgement.histories.get(name)
             quantity, finding = next(iter(judgement.findings[name].items()))
+            if finding.outcome is Outcome.REFERENCE:
+                continue
             most = most_left(THRESHOLDS[quantity], finding)
             try:
                 mistake = _in_tags(case, submission, judgement)
                 if mistake is None and histories is not None:
                     run = histories.finest
                     true = histories.reference.history(run.time)
-                    mistake = mistake_in_history(case, run.time, run.q, true, ramps, most)
+                    mistake = mistake_in_history(case, run.time, run.q, true, ramps, most, run.step)
                 elif mistake is None and case.asked is not Asked.HISTORY:
                     truth = reference(case, submission.declaration.theory)
                     mistake = mistake_in_table(case, submission.rows, truth, most)

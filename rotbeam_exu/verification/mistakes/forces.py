@@ -1,8 +1,9 @@
 """A force of the rotation that a code leaves out: the exact beam without it, spun up.
 
 In a frame that turns at the rate w the work of all forces is a parabola of w, but for Euler's
-force, which has the rate of w alone. The Coriolis force is its odd part, the centrifugal force the
-even part less that at w = 0. So a beam without one of them is a sum of beams at w, -w and 0.
+force, which is proportional to ẇ. The Coriolis force is its odd part, the centrifugal force the
+even part less that at w = 0. So a beam without one of them is a sum of beams at w, -w and 0, and
+one without Euler's force is the beam at ẇ = 0.
 """
 
 from __future__ import annotations
@@ -23,13 +24,15 @@ from ..case import Case
 _FUNCTIONS = 12, 6
 _STEP = 0.08  # in units of 1/√(EI/(mL³))
 
-FORCES: dict[str, tuple[str, dict[float, float]]] = {
+FORCES: dict[str, tuple[str, dict[tuple[float, float], float]]] = {
+    "no Euler force": ("Euler's force is left out: add -θ̈ × r in the turning frame",
+        {(1.0, 0.0): 1.0}),
     "no Coriolis force": ("the Coriolis force is left out: add 2θ̇ × v in the turning frame",
-        {1.0: 0.5, -1.0: 0.5}),
+        {(1.0, 1.0): 0.5, (-1.0, 1.0): 0.5}),
     "no centrifugal force": ("the centrifugal force is left out: add its tension and θ̇² r",
-        {1.0: 0.5, -1.0: -0.5, 0.0: 1.0}),
+        {(1.0, 1.0): 0.5, (-1.0, 1.0): -0.5, (0.0, 1.0): 1.0}),
 }  # fmt: skip
-"""Sentences on a code that leaves out a force, and weights of beams by their rate over w."""
+"""Sentences on a code that leaves out a force, and weights of beams by their w and ẇ over true."""
 
 
 class Lacking(Continuum):
@@ -39,10 +42,10 @@ class Lacking(Continuum):
     ----------
     case : Case
     rates : dict
-        Weights by the rate over that of the case.
+        Weights by w and ẇ over those of the case.
     """
 
-    def __init__(self, case: Case, rates: dict[float, float]) -> None:
+    def __init__(self, case: Case, rates: dict[tuple[float, float], float]) -> None:
         super().__init__(case.blade.slenderness, *_FUNCTIONS, blade=case.blade.unit)
         self.rates = rates
 
@@ -59,7 +62,10 @@ class Lacking(Continuum):
         return self._sum(beams)
 
     def _drives(self, by: Driven) -> list[Driven]:
-        return [by._replace(rate=share * by.rate) for share in self.rates]
+        return [
+            by._replace(rate=share * by.rate, rate_dot=speeding * by.rate_dot)
+            for share, speeding in self.rates
+        ]
 
     def _sum(self, parts: Iterable[FloatArray]) -> FloatArray:
         weighted = zip(self.rates.values(), parts, strict=True)

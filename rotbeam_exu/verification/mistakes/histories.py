@@ -14,12 +14,16 @@ from analytic.arrays import FloatArray
 
 from ..case import Case
 from .forces import FORCES, without
+from .times import delays, of_another_mass
 
 SMALL = 1e-2
 """Error of q(t) over max|q| below which no mistake is looked for: what passes."""
 
 LEFT = 0.2
 """Share of the error that may be left by what explains it; meshes and steps have a share in it."""
+
+SURE = 0.1
+"""Share of what a mistake may leave, below which no other is looked for."""
 
 _SAMPLES = 1500
 _RAMP_WINDOW = 4.0  # of the ramp [s]: enough to tell one from another
@@ -73,10 +77,17 @@ def explaining(
 ) -> Mistake | None:
     """Return the mistake that leaves least, if it leaves `most` at most and explains the error.
 
-    Suspects are names, sentences and what each leaves.
+    Suspects are names, sentences and what each leaves. They are dear to compute, so that one which
+    leaves far less than it may is the last.
     """
-    name, said, after = min(suspects, key=lambda one: one[2], default=("", "", np.inf))
-    if not after <= min(most, LEFT * before):
+    allowed = min(most, LEFT * before)
+    name, said, after = "", "", math.inf
+    for suspect in suspects:
+        if suspect[2] < after:
+            name, said, after = suspect
+        if after < SURE * allowed:
+            break
+    if not after <= allowed:
         return None
     return Mistake(case=case, name=name, said=said, before=before, after=after)
 
@@ -112,24 +123,30 @@ def mistake_in_history(
     true: FloatArray,
     ramps: Collection[str] = RAMPS,
     most: float = SMALL / 3.0,
+    step: float = math.nan,
 ) -> Mistake | None:
     """Return the mistake that explains the error of a history, if there is one.
 
     Times [s] and q [m], in space lag, flap and twist, are as handed in, and `true` is the reference
     there. `ramps` are the wrong ones to try, keys of RAMPS; each takes a second or two. A mistake
-    leaves `most` at most, over max|q|.
+    leaves `most` at most, over max|q|. Of what is off by less than passes a delay alone is named.
     """
     every = max(1, time.size // _SAMPLES)
     history = _Samples(case=case, time=time[::every], q=q[::every], true=true[::every])
     before = largest((history.q - history.true) / history.scale)
+    late = delays(case, time, q, true, step)
     if not before > SMALL:
-        return None
-    mistake = explaining(case.name, before, most, chain(_slips(history), _inertial(history)))
+        return explaining(case.name, before, most, late)
+    suspects = chain(_slips(history), _inertial(history), late)
+    mistake = explaining(case.name, before, most, suspects)
     if mistake is not None or not (case.is_spun_up and case.is_quick):
         return mistake
     for name, said, left in _unit_of_speed(history):
         return Mistake(case=case.name, name=name, said=said, before=before, after=left)
-    return explaining(case.name, before, most, _forces(history)) or _ramp(history, ramps, most)
+    scaled = of_another_mass(case, time, q, true)
+    return explaining(case.name, before, most, chain(scaled, _forces(history))) or _ramp(
+        history, ramps, most
+    )
 
 
 def _slips(history: _Samples) -> _Suspects:

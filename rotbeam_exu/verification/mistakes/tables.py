@@ -14,6 +14,7 @@ from ..judgement import THRESHOLDS
 from ..references import Reference, row_of
 from ..submission import Row
 from .histories import UNITS, Mistake, explaining, largest
+from .times import off_in_mass, said_of_mass
 
 _Suspects = Iterator[tuple[str, str, FloatArray]]
 """Name, sentence, and the numbers that a right code hands in with the mistake."""
@@ -93,6 +94,14 @@ def _of_frequencies(
     for name, (said, factor) in _SPEED_UNITS.items():
         if case.is_quick or not factor:
             yield name, said, at(factor)
+    slowest = int(np.argmin(speeds))
+    of_slowest = rows[slowest]
+    root = off_in_mass(
+        lambda speed: float(row_of(case, reference.theory, speed)[0][of_slowest.number - 1]),
+        of_slowest.speed, float(values[slowest]),
+    )  # fmt: skip
+    if not math.isnan(root):
+        yield "mass", said_of_mass(root), at(root) / root
 
 
 def _other_motions(true: FloatArray, speeds: FloatArray, at_rest: float) -> _Suspects:
