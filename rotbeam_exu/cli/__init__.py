@@ -38,7 +38,7 @@ _COMMANDS = {
     "run": "run", "reference": "run", "ramp": "ramp", "backbone": "backbone",
     "campbell": "campbell", "respond": "respond", "stability": "stability", "sweep": "sweep",
     "converge": "sweep", "compare": "paper", "figure": "paper", "table": "paper",
-    "explore": "explore", "animate": "animate", "verify": "judge", "kit": "judge",
+    "explore": "explore", "animate": "animate", "verify": "verify", "kit": "judge",
     "judge": "judge", "schema": "doctor", "doctor": "doctor", "blade": "blade",
     "report": "report", "sensitivity": "sensitivity", "fit": "fit",
 }  # fmt: skip

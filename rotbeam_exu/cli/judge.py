@@ -1,16 +1,12 @@
-"""`rotbeam kit`, `rotbeam judge` and `rotbeam verify`: the benchmark, and judgements on codes."""
+"""`rotbeam kit` and `rotbeam judge`: the benchmark, and judgements on codes."""
 
 from __future__ import annotations
 
 import math
 import sys
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from json import dumps
 from pathlib import Path
-from typing import Any
-
-from analytic.blade_checks import require_planar
 
 from ..report.document import Record, document
 from ..report.page import report_page
@@ -25,8 +21,7 @@ from ..verification.submission import Run, Submission
 from ..verification.submission_files import digests, read_submission
 from ..verification.submission_files.faults import Fault, MalformedSubmissionError
 from .job import require_writable, write_text
-from .output import bar, counter, formatted, print_columns, print_note, print_text, print_written
-from .request import Request, element_of, uses
+from .output import bar, formatted, print_columns, print_note, print_text, print_written
 
 _SHORT = {
     "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
@@ -85,9 +80,7 @@ def judge(
     for target, ending in ((report, ".html"), (json, ".json")):
         if target is not None:
             require_writable(target, force=True, ending=ending)
-    only, faults = tuple(case or ()), tuple[Fault, ...]()
-    if unknown := [name for name in only if name not in CASES]:
-        raise ValueError(f"there is no case {unknown[0]!r}: it must be {', '.join(CASES)}")
+    only, faults = cases_named(case), tuple[Fault, ...]()
     try:
         submission = read_submission(folder, only=only)
     except MalformedSubmissionError as error:
@@ -106,6 +99,13 @@ def judge(
         # The files were checked: what is raised now is no fault of theirs, nor a difference.
         raise JudgeError from error
     sys.exit(2 if faults else {True: 0, False: 1, None: 3}[passed])
+
+
+def cases_named(names: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the names of cases of the benchmark; ValueError of one that there is not."""
+    if unknown := [name for name in names or () if name not in CASES]:
+        raise ValueError(f"there is no case {unknown[0]!r}: it must be {', '.join(CASES)}")
+    return tuple(names or ())
 
 
 class JudgeError(Exception):
@@ -148,46 +148,6 @@ def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
         by_name.setdefault(one.name, []).append(one)
     for alike in by_name.values():
         print_note(f"{', '.join(one.case for one in alike)}: a usual mistake? {alike[0]}")
-
-
-@uses("motion", "numerics.duration", "numerics.step")
-def verify(request: Request, *, element: list[str] | None = None) -> None:
-    """Judge elements by their limits.
-
-    Frequencies, history, amplitude and nonlinear shift.
-
-    The cases are L, S1, S2, O and S4 of the benchmark; of a beam of --config, its spin-up.
-
-    Parameters
-    ----------
-    element
-        A formulation: cable, exact, ancf3, linear, substructures; in space
-        space_cable, space_exact; or one's own, as module:Class. Repeat it for several; by default
-        those in the plane.
-
-    Examples
-    --------
-    $ rotbeam verify --element cable
-    $ rotbeam verify --element cable --element ancf3
-    """
-    from ..verification.entries import entries_at_hand, formulation_entry
-    from ..verification.verify import verify as verification_of
-
-    entries_of_user = [formulation_entry(element_of(name)) for name in element or ()]
-    motion = request.motion
-    entries, mine = entries_of_user or entries_at_hand(), dict[str, Any]()
-    if request.config:
-        remedy = "rotbeam reference, which is exact in space"
-        require_planar(request.blade, "verify has references of", remedy)
-        entries = [replace(entry, step=motion.step) for entry in entries]
-        mine = {"blade": request.blade, "spin_up": motion.spin_up}
-    judgements = []
-    with counter("verifying") as progress:
-        for entry in entries:
-            judgements.append(verification_of(entry, duration=motion.duration, **mine))
-            progress(len(judgements), len(entries))
-    about = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
-    print_judgements(judgements, about if request.config else "the paper's beam")
 
 
 def print_judgements(judgements: Sequence[Judgement], about: str) -> None:

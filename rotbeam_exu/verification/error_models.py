@@ -5,9 +5,10 @@ A run on n elements with the step h is taken for
     q = q₀ + C (n₀/n)ᵖ + D (h/h₀)ʳ + noise,
 
 with the finest mesh n₀ and the smallest step h₀; C and D vary by κ from one mesh or step to the
-next, for no run is wholly in the asymptotic range. Given p, r, κ, D/C and the noise the best q₀ is
-a weighted sum of all runs. What is not given is taken from a grid, each point as likely as it makes
-the runs. The idea is that of Gauss and Richardson's extrapolation by C. Oates and others (2024).
+next, or by less on finer ones, for no run is wholly in the asymptotic range. Given p, r, κ, D/C and
+the noise the best q₀ is a weighted sum of all runs. What is not given is taken from a grid, each
+point as likely as it makes the runs. The idea is that of Gauss and Richardson's extrapolation by
+C. Oates and others (2024).
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from functools import lru_cache
 import numpy as np
 
 from analytic.arrays import FloatArray
+from analytic.lazily import special
 
 Declared = tuple[float | None, float | None]
 """Orders in mesh and step that an author declares."""
@@ -28,27 +30,30 @@ _ORDERS = (0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 _STEEP = (12.0, 18.0, 27.0)
 """Orders of the mesh alone: on a few meshes a power so high stands for an exponential fall."""
 
-_VARIATIONS = {0.02: 0.4, 0.1: 0.2, 0.3: 0.2, 1.0: 0.2}
-"""κ of mesh and step: 1 where there is no rule at all."""
+_VARIATIONS = {(0.02, 0.0): 0.33, (0.3, 0.0): 0.12, (1.0, 0.0): 0.3, (1.0, 1.0): 0.25}
+"""κ of mesh and step on the coarsest, and the power by which it falls to the finest.
+
+(1, 0) has no rule at all; in (1, 1) a term one order higher is as large on the coarsest.
+"""
 
 _ALIKE = 0.5
 """Share of models whose mesh and step have the same κ; a good ladder of steps on one coarse mesh
 tells nothing about the mesh."""
 
-_NOISES = {0.0: 0.6, 0.3: 0.1, 3.0: 0.15, 30.0: 0.15}  # of a run, over the finest's error
+_NOISES = {0.0: 0.9, 0.3: 0.03, 3.0: 0.04, 30.0: 0.03}  # of a run, over the finest's error
 _RATIOS = (3e-6, 1e-4, 3e-3, 0.1, 1.0, 10.0, 300.0, 1e4)  # D/C: small of many steps on one mesh
 _OWN = 0.02  # of each run's error: no pair of runs is all there is to know
 _LEAST = 1e-4  # the same of what mesh or step has alone, so that sums of both can be told apart
 
-_BELIEVED = 0.6
-"""Weight of the declared order; the rest is any order's around two, by a factor of two."""
+_BELIEVED = 0.5
+"""Weight of the declared order; the rest is that of any order around two."""
 
-_DECLARED_SPREAD, _ANY_SPREAD = 0.12, 0.7  # of ln p
+_DECLARED_SPREAD, _ANY_SPREADS = 0.12, {0.5: 0.8, 1.1: 0.2}  # of ln p, each with its share
 
-_COVERED = 0.96
-"""Probability that the limit lies within its bar; of synthetic submissions 95 % or more do."""
+_COVERED, _COVERED_BY_TWO = 0.945, 0.98
+"""Probability that the limit lies within its bar, and of two runs, which tell no order."""
 
-_MOST_FREEDOM = 2
+_MOST_FREEDOM = 3
 """Degrees of freedom by which the scale of errors is known: runs of one code are not independent,
 and with more of them bars of oscillating ones cover less than nine tenths."""
 
@@ -56,11 +61,6 @@ _FARTHEST = 230.0  # of the logarithms of errors
 _ROUND_OFF = 1e-13
 _LIKELY = 1e-3  # of the likeliest: what is less has no part in a bar
 _PROBABILITIES = (np.arange(60) + 0.5) / 60.0
-_STUDENT = {
-    1: np.tan(np.pi * (_PROBABILITIES - 0.5)),
-    2: (2.0 * _PROBABILITIES - 1.0) / np.sqrt(2.0 * _PROBABILITIES * (1.0 - _PROBABILITIES)),
-}
-"""Quantiles of Student's distribution by degrees of freedom."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,7 +73,7 @@ class Models:
         Mesh sizes and steps over the finest; y is one where steps have no part of their own.
     declared : tuple of float
     given : tuple of ndarray (models,)
-        p, r, D/C, κ of mesh and step, and the noise of each.
+        p, r, D/C, κ of mesh and step, the powers by which they fall, and the noise.
     prior : ndarray (models,)
         Logarithm of its weight before there are runs.
     weights, projections : ndarray (models, runs), (models, runs, runs)
@@ -104,18 +104,19 @@ class Models:
 
     def parts(self) -> tuple[FloatArray, FloatArray]:
         """Covariances (models, runs, runs) of the errors of mesh and step."""
-        return _parts(self.x, self.y, *self.given[:5])
+        return _parts(self.x, self.y, *self.given[:7])
 
 
 def _parts(
     x: FloatArray, y: FloatArray, p: FloatArray, r: FloatArray, ratio: FloatArray,
-    in_mesh: FloatArray, in_step: FloatArray,
+    in_mesh: FloatArray, in_step: FloatArray, mesh_falls: FloatArray, step_falls: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
     mesh, step = _power(x, p), ratio[:, None] * _power(y, r)
-    k, m = (one[:, None, None] ** 2 for one in (in_mesh, in_step))
+    k = in_mesh[:, None] * _power(x / x.max(), mesh_falls)
+    m = in_step[:, None] * _power(y / (y.max() or 1.0), step_falls)
     return (
-        mesh[:, :, None] * mesh[:, None, :] * (1.0 + k * (x[:, None] == x)),
-        step[:, :, None] * step[:, None, :] * (1.0 + m * (y[:, None] == y)),
+        mesh[:, :, None] * mesh[:, None, :] * (1.0 + k[:, :, None] ** 2 * (x[:, None] == x)),
+        step[:, :, None] * step[:, None, :] * (1.0 + m[:, :, None] ** 2 * (y[:, None] == y)),
     )
 
 
@@ -128,14 +129,14 @@ def _modeled(
     x: FloatArray, y: FloatArray, declared: Declared, prior: FloatArray, *given: FloatArray
 ) -> Models:
     """Return the algebra of models."""
-    mesh, step = _parts(x, y, *given[:5])
+    mesh, step = _parts(x, y, *given[:7])
     covariance = mesh + step
     each = np.arange(x.size)
     size = covariance[:, each, each]
     # Errors of mesh and step together end where either does.
     smaller = np.minimum(mesh[:, each, each], step[:, each, each]) if step.any() else size
     of_runs = _OWN**2 * smaller + _LEAST**2 * size
-    covariance[:, each, each] += of_runs + (given[5] ** 2 * size.min(axis=1))[:, None]
+    covariance[:, each, each] += of_runs + (given[7] ** 2 * size.min(axis=1))[:, None]
     scale = np.sqrt(covariance[:, each, each])
     both = scale[:, :, None] * scale[:, None, :]
     covariance /= both
@@ -171,7 +172,7 @@ def models_of(x: tuple[float, ...], y: tuple[float, ...], declared: Declared) ->
     )  # fmt: skip
     prior = np.log(math.prod(np.meshgrid(*likely, indexing="ij"))).ravel()
     *given, pair, noise = (one.ravel() for one in np.meshgrid(*axes, indexing="ij"))
-    kappas = np.array([(k, m) for k, m, _ in pairs])[pair].T
+    kappas = np.array([(k[0], m[0], k[1], m[1]) for k, m, _ in pairs])[pair].T
     given += [*kappas, noise]
     return _modeled(np.array(x), np.array(y), declared, prior, *given)
 
@@ -184,7 +185,9 @@ def shares(orders: Sequence[float] | FloatArray, declared: float | None) -> Floa
 def _density(orders: FloatArray, declared: float | None) -> FloatArray:
     """Return how dense orders are over ln p before there are runs."""
     log = np.log(orders)
-    anything = np.exp(-0.5 * ((log - math.log(2.0)) / _ANY_SPREAD) ** 2) / _ANY_SPREAD
+    anything = np.zeros_like(log)
+    for spread, share in _ANY_SPREADS.items():
+        anything += share * np.exp(-0.5 * ((log - math.log(2.0)) / spread) ** 2) / spread
     if declared is None:
         return anything
     near = np.exp(-0.5 * ((log - math.log(declared)) / _DECLARED_SPREAD) ** 2) / _DECLARED_SPREAD
@@ -192,10 +195,21 @@ def _density(orders: FloatArray, declared: float | None) -> FloatArray:
 
 
 def likeliest(models: Models, evidence: FloatArray, runs: FloatArray) -> Models:
-    """Return the likeliest model alone, sought between those of the grid by zooming in."""
-    best = int(np.argmax(evidence))
-    p, r, ratio, *others = (float(one[best]) for one in models.given)
-    stepped, width = bool(ratio), 0.3
+    """Return the likeliest model alone, sought between those of the grid by zooming in.
+
+    From the best one, and from the best smooth one, whose order may lie between those of the grid.
+    """
+    smooth = (models.given[3] == min(_VARIATIONS)[0]) & (models.given[4] == min(_VARIATIONS)[0])
+    starts = {int(np.argmax(one)) for one in (evidence, np.where(smooth, evidence, -np.inf))}
+    found = [_zoomed(models, start, runs) for start in sorted(starts)]
+    _, given = max(found, key=lambda one: one[0])
+    return _modeled(models.x, models.y, models.declared, np.zeros(1), *given)
+
+
+def _zoomed(models: Models, start: int, runs: FloatArray) -> tuple[float, list[FloatArray]]:
+    """Return the largest evidence around a model, and what is given there."""
+    p, r, ratio, *others = (float(one[start]) for one in models.given)
+    stepped, width, best = bool(ratio), 0.3, -math.inf
     for _ in range(18):
         near = width * np.array([-1.0, 0.0, 1.0])
         # Ratios of the grid are farther apart than its orders.
@@ -204,11 +218,11 @@ def likeliest(models: Models, evidence: FloatArray, runs: FloatArray) -> Models:
         given += [np.full(given[0].size, one) for one in others]
         prior = np.log(_density(given[0], models.declared[0]))
         prior = prior + np.log(_density(given[1], models.declared[1])) * stepped
-        fits = _modeled(models.x, models.y, models.declared, prior, *given)
-        k = int(np.argmax(fits.evidence(runs)))
-        p, r, ratio, width = *(float(one[k]) for one in given[:3]), 0.6 * width
-    given = [np.array([one]) for one in (p, r, ratio, *others)]
-    return _modeled(models.x, models.y, models.declared, np.zeros(1), *given)
+        likely = _modeled(models.x, models.y, models.declared, prior, *given).evidence(runs)
+        k = int(np.argmax(likely))
+        best, width = float(likely[k]), 0.6 * width
+        p, r, ratio = (float(one[k]) for one in given[:3])
+    return best, [np.array([one]) for one in (p, r, ratio, *others)]
 
 
 def bar_of(models: Models, evidence: FloatArray, weights: FloatArray, runs: FloatArray) -> float:
@@ -226,7 +240,9 @@ def bar_of(models: Models, evidence: FloatArray, weights: FloatArray, runs: Floa
     spread = np.einsum("g,gi,gj", share, apart, apart) + np.einsum("g,gij", share, of_each)
     worst = runs[:, np.argmax(np.einsum("it,ij,jt->t", runs, spread, runs))]
     of_model = np.sqrt(np.maximum(np.einsum("gij,i,j->g", of_each, worst, worst), 0.0))
-    off = np.abs((apart @ worst)[:, None] + of_model[:, None] * _STUDENT[freedom]).ravel()
+    student = special.stdtrit(freedom, _PROBABILITIES)
+    probability = _COVERED_BY_TWO if len(runs) == 2 else _COVERED
+    off = np.abs((apart @ worst)[:, None] + of_model[:, None] * student).ravel()
     order = np.argsort(off)
     covered = np.cumsum(np.repeat(share / _PROBABILITIES.size, _PROBABILITIES.size)[order])
-    return float(off[order][np.searchsorted(covered, _COVERED)])
+    return float(off[order][np.searchsorted(covered, probability)])

@@ -68,6 +68,14 @@ class Finding:
         return math.nan if self.runs is None else abs(self.runs.limit) + self.runs.bar + self.bound
 
     @property
+    def finer(self) -> tuple[int | None, float | None]:
+        """Elements and step that would decide; None of what need not be finer, or would not."""
+        runs = self.runs
+        if self.outcome is not Outcome.UNDECIDED or runs is None or math.isnan(runs.limit):
+            return None, None
+        return _finer(runs, self.tolerance, self.bound)
+
+    @property
     def said(self) -> str:
         """The outcome in words, with the distance that a code agrees within."""
         within = f" within {self.within:.0e}" if self.outcome is Outcome.AGREES else ""
@@ -125,25 +133,39 @@ def finding_of(
 
 
 def _remedy(runs: Convergence, tolerance: float, bound: float, of_what: str) -> str:
-    """Return which mesh or step would decide; the bar shrinks as the finest run's error does."""
-    if bound > max(runs.bar, 0.5 * tolerance):
+    """Return which mesh or step would decide."""
+    elements, step = _finer(runs, tolerance, bound)
+    if elements is None and step is None:
         return f"{of_what} is known to {bound:.0e} only"
+    said = []
+    if elements is not None:
+        few = np.unique(runs.elements).size < 3
+        said.append("a third mesh" if few else f"about {elements} elements")
+    if step is not None:
+        of = f"{step:.1g}" if runs.refined == "tolerance" else f"{1e3 * step:.1g} ms"
+        said.append(f"a {runs.refined} of about {of}")
+    return f"{' and '.join(said)} would decide"
+
+
+def _finer(runs: Convergence, tolerance: float, bound: float) -> tuple[int | None, float | None]:
+    """Return the elements and the step that would decide; None of what need not be finer.
+
+    The bar shrinks as the finest run's error does. Both are None where the reference is the cause.
+    """
+    if bound > max(runs.bar, 0.5 * tolerance):
+        return None, None
     off = abs(runs.limit)
     room = 0.5 * tolerance if off < tolerance else max(off - tolerance, 0.5 * tolerance)
     factor = max(runs.bar / room, 1.5)
     mesh, step = abs(float(runs.in_mesh[-1])), abs(float(runs.in_step[-1]))
-    finer = []
+    elements = smallest = None
     # Where errors of a mesh change sign little may be left by chance; what the step cannot account
     # for is still the mesh's.
     if mesh >= 0.3 * step or step < 0.1 * room:
-        elements = runs.elements[-1] * factor ** (1.0 / runs.powers[0])
-        few = np.unique(runs.elements).size < 3
-        finer.append("a third mesh" if few else f"about {_rounded(elements)} elements")
+        elements = _rounded(runs.elements[-1] * factor ** (1.0 / runs.powers[0]))
     if step >= max(0.3 * mesh, 0.1 * room) and np.unique(runs.steps).size > 1:
         smallest = float(runs.steps.min()) * factor ** (-1.0 / runs.powers[1])
-        of = f"{smallest:.1g}" if runs.refined == "tolerance" else f"{1e3 * smallest:.1g} ms"
-        finer.append(f"a {runs.refined} of about {of}")
-    return f"{' and '.join(finer)} would decide"
+    return elements, smallest
 
 
 def _rounded(elements: float) -> int:

@@ -11,6 +11,7 @@ import pytest
 from rotbeam_exu import explorer
 from rotbeam_exu.cli import _COMMANDS, app, documented
 from rotbeam_exu.sweeps import grid
+from rotbeam_exu.verification import program
 from rotbeam_exu.verification import verify as room
 from tests.beams import BEAM_TOML
 
@@ -41,10 +42,13 @@ def test_an_example_ends_well_or_begins_what_takes_minutes(call, tmp_path, monke
     def begun(*_, **__):
         raise KeyboardInterrupt
 
-    for place, name in ((grid, "solved"), (explorer, "explorer_data"), (room, "verify")):
+    for place, name in (
+        (grid, "solved"), (explorer, "explorer_data"), (room, "verify"), (program, "until_decided")
+    ):  # fmt: skip
         monkeypatch.setattr(place, name, begun)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "beam.toml").write_text(BEAM)
+    (tmp_path / "mine").touch(mode=0o755)
     (tmp_path / "measured.csv").write_text("mode,frequency [Hz]\nlag 1,1.1\nlag 2,7\n")
     _, command, *arguments = shlex.split(example)
     if command == "judge":

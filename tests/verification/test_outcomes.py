@@ -87,7 +87,7 @@ def test_what_is_undecided_says_which_runs_would_decide(runs, said):
     size = 1.0 if steps is None else 1e-3
 
     def judged(n, h):
-        values = 0.02 * size * (32 / n) ** 2 + 2e4 * h**2
+        values = 0.02 * size * (32 / n) ** 2 + 6e4 * h**2
         fit = converged(n, None if steps is None else h, values, declared=(2.0, 2.0))
         return finding_of(fit, tolerance=5e-3, bound=0.0, where="here")
 

@@ -68,7 +68,7 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     rows: list[Row] = []
     for file, case in _TABLES.items():
         if os.path.lexists(files.root / file):
-            rows += _rows(files, file, case)
+            rows += rows_in(files, file, case)
     for file, case in _vibrations(files):
         rows += _vibration(files, file, case, rows)
     histories = runs.runs_of(files, only)
@@ -84,8 +84,8 @@ def read_submission(folder: str | os.PathLike[str], *, only: Collection[str] = (
     return made
 
 
-def _rows(folder: Folder, file: str, case: Case) -> list[Row]:
-    """Return the rows of a case's table."""
+def rows_in(folder: Folder, file: str, case: Case) -> list[Row]:
+    """Return the rows of a case's table; its faults are kept in the folder."""
     columns = tables.columns_of(case)
     measured: dict[str, list[str]] = {column.name: [] for column in columns if column.measured}
     rows: dict[tuple[object, ...], Row] = {}
@@ -195,17 +195,10 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
         raise ValueError(f"two runs would be {twice[0]}: keep one of each case, mesh and step")
     texts = {entry.FILE: entry.entry_text(submission.declaration)}
     for file, case in _TABLES.items():
-        columns = tables.columns_of(case)
-        measured = [column.name for column in columns if column.measured]
-        rows = [
-            vars(row) | dict(zip(measured, row.values, strict=False))
-            | {"rounding": row.rounding[0] if row.rounding else None}
-            for row in submission.rows if row.case == case.name
-        ]  # fmt: skip
-        if rows:
-            texts[file] = tables.written(columns, rows)
+        if rows := [row for row in submission.rows if row.case == case.name]:
+            texts[file] = table_of(case, rows)
     if histories:
-        texts[runs.FILE] = tables.written(tables.RUNS, list(map(vars, histories)))
+        texts[runs.FILE] = runs.list_of(histories)
     for name in (*texts, *(run.case for run in histories)):
         if (root / name).exists():
             raise FileExistsError(f"{root} holds {name} already: choose another folder")
@@ -221,6 +214,18 @@ def write_submission(submission: Submission, folder: str | os.PathLike[str]) -> 
         with whole_file(root / file) as partial:
             partial.write_text(text, encoding="utf-8", newline="\n")
     return root
+
+
+def table_of(case: Case, rows: Sequence[Row]) -> str:
+    """Return the text of a case's table, as L.csv."""
+    columns = tables.columns_of(case)
+    measured = [column.name for column in columns if column.measured]
+    stated = [
+        vars(row) | dict(zip(measured, row.values, strict=False))
+        | {"rounding": row.rounding[0] if row.rounding else None}
+        for row in rows
+    ]  # fmt: skip
+    return tables.written(columns, stated)
 
 
 def digests(folder: str | os.PathLike[str], submission: Submission) -> dict[str, str]:

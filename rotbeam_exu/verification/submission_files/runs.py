@@ -31,8 +31,18 @@ _ROUNDED = 1e-2
 
 def file_of(run: Run) -> str:
     """Return the name of a history's file below the folder, as S1/m032_h1e-3.csv."""
-    size = np.format_float_scientific(run.refinement, trim="-", exp_digits=1).replace("+", "")
-    return f"{run.case}/m{run.elements:03d}_{'t' if run.is_adaptive else 'h'}{size}.csv"
+    kind = "t" if run.is_adaptive else "h"
+    return f"{run.case}/m{run.elements:03d}_{kind}{size_in_words(run.refinement)}.csv"
+
+
+def size_in_words(size: float) -> str:
+    """Return a step or tolerance as it stands in names of files, 4e-3."""
+    return np.format_float_scientific(size, trim="-", exp_digits=1).replace("+", "")
+
+
+def list_of(runs: Sequence[Run]) -> str:
+    """Return the text of runs.csv, of runs with their files."""
+    return tables.written(tables.RUNS, list(map(vars, runs)))
 
 
 def runs_of(folder: Folder, only: Collection[str]) -> tuple[Run, ...]:

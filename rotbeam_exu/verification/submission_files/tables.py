@@ -289,7 +289,10 @@ def rounding(most: int, largest: float) -> float:
 
 def written(columns: Iterable[Column], rows: Sequence[Mapping[str, object]]) -> str:
     """Return the table of rows by field, which reads back the same."""
-    held = [one for one in columns if any(row.get(one.field) is not None for row in rows)]
+    held = [
+        one for one in columns
+        if one.needed or any(row.get(one.field) is not None for row in rows)
+    ]  # fmt: skip
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(column.name for column in held)
