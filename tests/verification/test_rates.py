@@ -19,6 +19,9 @@ KINDS = "asymptotic", "pre-asymptotic", "oscillating", "noisy"
 PAGES = Path(__file__).parents[2] / "docs" / "howto"
 DEFAULT, MANY = 20, 2000
 WHOLE = (8, 16, 32, 16, 16), (2e-3, 2e-3, 2e-3, 1e-3, 4e-3)
+UNTOLD = 0.05
+"""Share of the tolerance by which noise of 0.006 moves a limit at most, told or not."""
+
 FAR = 3.4
 """Of FrE at 6 rad/s: 17 % of the shift, of which 5 % pass."""
 
@@ -74,7 +77,8 @@ def test_a_right_code_is_never_told_that_it_differs_and_bars_cover(
     missed, differs = 0, 0
     for _ in range(count):
         fit, outcome = fitted(drawn(rng, kind, runs, order), runs, declared)
-        missed += abs(fit.limit) > fit.bar
+        # Of noise that is not told no verdict hangs on what is missed.
+        missed += abs(fit.limit) > max(fit.bar, UNTOLD * (kind == "noisy"))
         differs += outcome is Outcome.DIFFERS
     assert missed <= at_most(count, 0.10 if kind == "oscillating" else 0.05)
     assert differs <= at_most(count, 1e-3)
@@ -166,6 +170,61 @@ def test_the_page_has_the_coverage_that_is_measured():
             assert shares(kind, runs) == pytest.approx(numbers, abs=1.1), (meshes, kind)
 
 
+OTHERS = {
+    "asymptotic": ("asymptotic", 2.0, 2.0),
+    "coarse": ("pre-asymptotic", 2.0, 2.0),
+    "irregular by half": ("irregular", 2.0, 2.0),
+    "locked on coarse meshes": ("locked", 2.0, 2.0),
+    "of any signs": ("signs", 2.0, 2.0),
+    "order four": ("asymptotic", 4.0, 4.0),
+    "order two, four declared": ("asymptotic", 2.0, 4.0),
+    "order two, none declared": ("asymptotic", 2.0, None),
+    "order four, two declared": ("asymptotic", 4.0, 2.0),
+}
+"""Lines of the second table of the page: kind, true order, declared order."""
+
+
+def others(kind, order, declared, off=0.0, count=400):
+    """Return in % how often the limit is within its bar, is undecided, and passes."""
+    rng, n = np.random.default_rng(8), np.array([8, 16, 32])
+    within, undecided, passed = 0, 0, 0
+    for _ in range(count):
+        x = 32.0 / n
+        size = 10.0 ** rng.uniform(-4.0, 0.0) * rng.choice([-1.0, 1.0])
+        change = {
+            "irregular": 1.0 + rng.uniform(-0.5, 0.5, 3),
+            "locked": 1.0 / (1.0 + (x / 2.0 ** rng.uniform(1.0, 3.0)) ** order),
+            "signs": rng.choice([-1.0, 1.0], 3),
+        }
+        if kind in change:
+            values = off + size * x**order * change[kind]
+        else:
+            values = off + errors(rng, kind, x, order)
+        fit = converged(n, None, values, declared=(declared, None))
+        outcome = finding_of(fit, tolerance=1.0, bound=0.0, where="here").outcome
+        within += abs(fit.limit - off) <= fit.bar
+        undecided += outcome is Outcome.UNDECIDED
+        passed += outcome.passed is True
+    return tuple(100.0 * one / count for one in (within, undecided, passed))
+
+
+@pytest.mark.slow
+def test_the_page_has_how_many_right_codes_stay_undecided():
+    text = (PAGES / "judge_report.md").read_text(encoding="utf-8")
+    row = r"^\| ([a-z ,]+) \| (\d+ % \| \d+ %) \| \d+ % \|$"
+    rows = dict(re.findall(row, text, re.MULTILINE))
+    assert rows.keys() == OTHERS.keys()
+    for name, line in OTHERS.items():
+        stated = [float(one) for one in re.findall(r"\d+", rows[name])]
+        assert others(*line)[:2] == pytest.approx(stated, abs=1.1), name
+
+
+@counts
+@pytest.mark.parametrize("line", OTHERS.values(), ids=OTHERS)
+def test_a_code_that_is_off_by_one_and_a_half_thresholds_does_not_pass(line, count):
+    assert 0.01 * count * others(*line, 1.5, count)[2] <= at_most(count, 2e-3)
+
+
 def test_a_finer_mesh_more_makes_bars_smaller_by_less_where_errors_oscillate():
     """Medians, as docs/howto/judge.md has them."""
     n, median = (8, 16, 32, 64), {}
@@ -176,10 +235,8 @@ def test_a_finer_mesh_more_makes_bars_smaller_by_less_where_errors_oscillate():
             three, four = (fitted(values[:k], (n[:k], None), 2.0)[0].bar for k in (3, 4))
             ratios.append(three / four)
         median[kind] = np.median(ratios)
-    assert median["asymptotic"] > 5.0
-    assert median["pre-asymptotic"] > 4.0
+    assert median["asymptotic"] > 8.0
+    assert median["pre-asymptotic"] > 5.0
     assert 2.5 < median["oscillating"] < 5.0
     text = (PAGES / "judge.md").read_text(encoding="utf-8")
-    assert (
-        "some five times smaller where errors fall smoothly, about four times where they oscill" in text
-    )
+    assert "seven times smaller where errors fall smoothly, about four times where they o" in text
