@@ -24,10 +24,11 @@ from .job import require_writable, write_text
 from .output import bar, formatted, print_columns, print_note, print_text, print_written
 
 _SHORT = {
-    "linear frequency": "ω_n", "history": "q(t)", "amplitude": "a", "nonlinear shift": "shift",
-    "frequencies": "ω_k", "steady deflection": "tip",
-    "backbone": "shift",
+    "linear frequency": "ω_n", "history": "q(t)", "nonlinear shift": "shift",
+    "frequencies": "ω_k", "steady deflection": "tip", "backbone": "shift",
 }  # fmt: skip
+
+_WORDS = {Outcome.REFERENCE: "converges", Outcome.AGREES: "agrees"}
 
 
 def kit(directory: Path, /) -> None:
@@ -125,7 +126,9 @@ def _judge(
             submission, judgement, lambda name, n, of: drawn(n, of, f"usual mistakes in {name}")
         )
     _print_mistakes(mistakes)
-    print_judgements([judgement], f"benchmark {VERSION}")
+    print_text(f"{judgement.declaration.code}: {judgement.outcome}; benchmark {VERSION}")
+    _print_findings(judgement)
+    _print_orders([judgement])
     for source in dict.fromkeys(judgement.sources.values()):
         print_note(f"reference: {source}")
     record = Record(
@@ -150,15 +153,37 @@ def _print_mistakes(mistakes: Sequence[Mistake]) -> None:
         print_note(f"{', '.join(one.case for one in alike)}: a usual mistake? {alike[0]}")
 
 
+def _print_findings(judgement: Judgement) -> None:
+    """Print what became of each quantity, and how far limit and finest run are off."""
+    found = judgement.by_quantity
+    print_columns(
+        {
+            "outcome": [_WORDS.get(one.outcome, str(one.outcome)) for one in found.values()],
+            "case": [case for case, _ in found],
+            "quantity": [_SHORT.get(name, name) for _, name in found],
+            "limit off by": [_signed(one.model_difference) for one in found.values()],
+            "at most": [_largest([one.within]) for one in found.values()],
+            "allowed": [f"{THRESHOLDS[name]:g}" for _, name in found],
+            "finest run off by": [_signed(one.difference) for one in found.values()],
+        }
+    )
+    print_note(
+        "the limit of your meshes and steps decides; at most: its uncertainty and the reference's "
+        "included"
+    )
+
+
 def print_judgements(judgements: Sequence[Judgement], about: str) -> None:
     """Print the limits of codes less the reference, their discretization, and the outcomes."""
+    for one in judgements:
+        print_text(f"{one.declaration.code}: {one.outcome}")
     keys = list(dict.fromkeys(key for one in judgements for key in one.by_quantity))
     findings = {
         key: [one.by_quantity[key] for one in judgements if key in one.by_quantity] for key in keys
     }
     of_quantity = {
-        "quantity": [f"{case} {_SHORT[quantity]}" for case, quantity in keys],
-        "at most": [f"{THRESHOLDS[quantity]:g}" for _, quantity in keys],
+        "quantity": [f"{case} {_SHORT.get(quantity, quantity)}" for case, quantity in keys],
+        "allowed": [f"{THRESHOLDS[quantity]:g}" for _, quantity in keys],
         "floor": [
             _largest(one.runs.noise[-1] for one in findings[key] if one.runs) for key in keys
         ],
@@ -184,17 +209,21 @@ def print_judgements(judgements: Sequence[Judgement], about: str) -> None:
     print_columns(
         bars, title="Discretization error: finest run less its own limit, ± uncertainty of that"
     )
+    _print_orders(judgements)
+
+
+def _print_orders(judgements: Sequence[Judgement]) -> None:
+    """Print orders and the finest run of each code, and what is to be said of it."""
     print_columns(
         {
             "code": [one.declaration.code for one in judgements],
             "theory": [one.declaration.theory.name for one in judgements],
-            "mesh": [_finest(one, lambda run: str(run.elements)) for one in judgements],
-            "h": [_finest(one, lambda run: run.step_in_words) for one in judgements],
-            "order l": [_order(one, "mesh") for one in judgements],
-            "order h": [_order(one, "step") for one in judgements],
+            "elements": [_finest(one, lambda run: str(run.elements)) for one in judgements],
+            "step": [_finest(one, lambda run: run.step_in_words) for one in judgements],
+            "order in mesh": [_order(one, "mesh") for one in judgements],
+            "in step": [_order(one, "step") for one in judgements],
         }
-        | _times(judgements)
-        | {"outcome": [one.outcome for one in judgements]},
+        | _times(judgements),
         title="Orders of q(t), observed of declared, and the finest run of the first history",
     )
     for one in judgements:
@@ -209,7 +238,11 @@ def _limit(finding: Finding) -> str:
     if not math.isfinite(finding.model_difference):
         return "none!" if finding.outcome is Outcome.DIFFERS else "none?"
     mark = {True: "", False: "!", None: "?"}[finding.outcome.passed]
-    return f"{finding.model_difference:+.0e}{mark}"
+    return f"{_signed(finding.model_difference)}{mark}"
+
+
+def _signed(value: float) -> str:
+    return f"{value:+.0e}" if math.isfinite(value) else "-"
 
 
 def _discretization(finding: Finding) -> str:
@@ -236,7 +269,7 @@ def _times(judgements: Sequence[Judgement]) -> dict[str, list[str]]:
     for name in ("wall", "cpu"):
         times = [getattr(run, name, math.nan) for run in runs]
         if not all(map(math.isnan, times)):
-            return {{"wall": "s", "cpu": "CPU s"}[name]: formatted(times, ".1f")}
+            return {{"wall": "seconds", "cpu": "CPU s"}[name]: formatted(times, ".1f")}
     return {}
 
 

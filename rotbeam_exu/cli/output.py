@@ -74,9 +74,12 @@ def print_columns(
     table, texts = Table(), list(map(_cells, columns.values()))
     for name, cells in zip(columns, texts, strict=True):
         numbers = all(map(_is_number, cells))
-        # Without it rich breaks numbers where it shrinks columns.
-        longest = max(map(len, " ".join([name, *cells]).split()), default=0)
-        table.add_column(name, justify="right" if numbers else "left", min_width=longest)
+        # Without these rich breaks words where it shrinks columns, or cuts the last column off.
+        words = " ".join([name, *cells]).split()
+        table.add_column(
+            name, justify="right" if numbers else "left", min_width=max(map(len, words), default=0),
+            no_wrap=all(" " not in one for one in (name, *cells)),
+        )  # fmt: skip
     for row in zip(*texts, strict=True):
         table.add_row(*row)
     console = new_console()
@@ -84,11 +87,12 @@ def print_columns(
         console.print(Text(title, style="italic"), soft_wrap=False)
     for padding in ((0, 1), (0, 0)):
         table.padding = padding
-        least = console.measure(table, options=console.options.update_width(10_000)).minimum
-        if least <= console.width:
+        with console.capture() as drawn:
+            console.print(table, crop=False)
+        # Its measure is of narrower columns than it draws.
+        if max(map(len, drawn.get().splitlines())) <= console.width:
             break
-    console.width = max(console.width, least)
-    console.print(table, soft_wrap=False)
+    console.print(table, crop=False)
 
 
 def formatted(values: Iterable[float], form: str) -> list[str]:

@@ -52,8 +52,8 @@ def test_one_bad_file_leaves_the_others_judged(call, folder, tmp_path, monkeypat
     page, data = tmp_path / "out.html", tmp_path / "out.json"
     code, out, err = call("judge", folder, "--report", page, "--json", data)
     assert code == 2
-    assert "S1 q(t)" in out
-    assert "L ω" not in out
+    assert "│ S1   │ q(t)" in out
+    assert "│ ω_n" not in out
     found = json.loads(data.read_text("utf-8"))
     assert list(found["cases"]) == ["S1"]
     assert [(one["file"], one["line"]) for one in found["faults"]] == [
@@ -127,7 +127,7 @@ def test_one_case_is_read_and_judged_alone(call, folder):
         runs.write("V/m008_h1e-3.csv,8,1e-3,,,,,,\n")
     code, out, err = call("judge", folder, "--case", "S1")
     assert (code, err) == (0, "")
-    assert "L ω" not in out
+    assert "│ ω_n" not in out
     assert "1 of 1" in out
-    shift = next(line for line in whole.splitlines() if "S1 shift" in line)
+    shift = next(line for line in whole.splitlines() if "│ shift" in line)
     assert shift in out

@@ -142,7 +142,7 @@ def test_times_are_printed_where_they_are_known(call, submitted, tmp_path, monke
         (folder / "runs.csv").write_text(",".join(names) + "\n" + text, "utf-8")
         out = call("judge", folder)[1]
         assert "nan" not in out
-        (header,) = [line for line in out.splitlines() if "order h" in line]
+        (header,) = [line for line in out.splitlines() if "order in mesh" in line]
         assert ("CPU s" in header) == (due == "CPU s")
         assert (" s " in header.replace("CPU s", "")) == (due == " s ")
 
