@@ -112,6 +112,7 @@ GROUPS = (
         rotbeam_exu__verification__verify="verify",
         rotbeam_exu__verification__entries="formulation_entry",
         rotbeam_exu__verification__judgement="judged",
+        rotbeam_exu__verification__program="until_decided Program Record",
         rotbeam_exu__verification__submission_files="read_submission write_submission",
     ),
     _group("Warnings", "Valid input that is probably not intended.", analytic="RotbeamWarning"),

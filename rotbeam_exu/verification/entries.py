@@ -60,6 +60,8 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
 
     def simulated(case: Case, *, elements: int, step: float) -> xr.Dataset:
         frame = frame_of(case.blade)
+        if "twist" in case.columns and not model.twists:
+            raise NotImplementedError(f"{model.name} has no twist to hand in")
         if not (case.is_spun_up or model.starts_in_motion):
             raise NotImplementedError(f"{model.name} does not start on an orbit")
         data = simulate(

@@ -50,10 +50,12 @@ _BELIEVED = 0.5
 
 _DECLARED_SPREAD, _ANY_SPREADS = 0.12, {0.5: 0.8, 1.1: 0.2}  # of ln p, each with its share
 
-_COVERED, _COVERED_BY_TWO = 0.945, 0.98
-"""Probability that the limit lies within its bar, and of two runs, which tell no order."""
+_COVERED, _COVERED_BY_NEAR = 0.945, 0.98
+"""Probability that the limit lies within its bar, and of meshes that differ by less than _NEAR."""
 
-_MOST_FREEDOM = 3
+_NEAR = 3.0
+
+_MOST_FREEDOM = 2
 """Degrees of freedom by which the scale of errors is known: runs of one code are not independent,
 and with more of them bars of oscillating ones cover less than nine tenths."""
 
@@ -241,7 +243,7 @@ def bar_of(models: Models, evidence: FloatArray, weights: FloatArray, runs: Floa
     worst = runs[:, np.argmax(np.einsum("it,ij,jt->t", runs, spread, runs))]
     of_model = np.sqrt(np.maximum(np.einsum("gij,i,j->g", of_each, worst, worst), 0.0))
     student = special.stdtrit(freedom, _PROBABILITIES)
-    probability = _COVERED_BY_TWO if len(runs) == 2 else _COVERED
+    probability = _COVERED if models.x.max() >= _NEAR else _COVERED_BY_NEAR
     off = np.abs((apart @ worst)[:, None] + of_model[:, None] * student).ravel()
     order = np.argsort(off)
     covered = np.cumsum(np.repeat(share / _PROBABILITIES.size, _PROBABILITIES.size)[order])

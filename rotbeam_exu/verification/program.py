@@ -285,6 +285,22 @@ def until_decided(
     -------
     dict
         By name of the case, why no other run was made.
+
+    Raises
+    ------
+    TypeError or ValueError
+        If a number is not positive.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from rotbeam_exu.verification.cases import CASES
+    >>> from rotbeam_exu.verification.program import Program, Record, until_decided
+    >>> program = Program(command="false {case} {elements} {step} {out}")
+    >>> with TemporaryDirectory() as folder:
+    ...     record = Record(folder, program, "mine")
+    ...     print(until_decided(record, [CASES["L"]])["L"])
+    exit code 1
     """
     whole_number("elements", elements)
     positive("size", size)

@@ -35,7 +35,7 @@ DEFAULT = ("L", "S1", "S2", "O", "S4")
 """Cases that `verify` takes: linear, the paper's main one, and the least and the largest speed. On
 the orbit of O the beam hardens; S2 leaves too little for that."""
 
-IN_SPACE = ("F", "F+p", "P", "W", "G")
+IN_SPACE = ("F", "F+p", "P", "W", "G", "K")
 """Cases that `verify` takes of a code in space."""
 
 Numbers = Callable[[Case, float, int], Sequence[float] | FloatArray]
