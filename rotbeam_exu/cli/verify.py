@@ -30,6 +30,7 @@ def verify(
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     case: list[str] | None = None,
     elements: Whole = 16,
+    step: Number | None = None,
     budget: Number = 3600.0,
     seconds: Number = 600.0,
     memory: Number | None = None,
@@ -57,6 +58,9 @@ def verify(
         Run this case with --command, as S1; repeat it for several.
     elements
         Of the middle one of the first three meshes of --command.
+    step
+        The smallest of the first three steps [s] of --command, 1 ms unless given; or of the
+        tolerances, 1e-6.
     budget
         CPU time [s] of the runs of --command after which no other begins.
     seconds
@@ -77,15 +81,13 @@ def verify(
     if command is not None:
         if out is None:
             raise ValueError("give the folder of your submission with --out")
-        if element or request.config or set(request.options) - {"step"}:
+        if element or request.config:
             raise ValueError(
-                "--command runs cases of the benchmark: of the others --case, --elements, --step, "
-                "--budget, --seconds and --memory alone go with it"
+                "--command runs cases of the benchmark: leave out --element and --config"
             )
         names = cases_named(case) or DEFAULT
         limits = {"seconds": seconds, "memory": memory}
-        size = request.options.get("step")
-        _until_decided(command, out, names, limits, elements=elements, size=size, budget=budget)
+        _until_decided(command, out, names, limits, elements=elements, size=step, budget=budget)
         judge(out, case=list(names))
     entries_of_user = [formulation_entry(element_of(name)) for name in element or ()]
     motion = request.motion
@@ -109,14 +111,15 @@ def _until_decided(
     *, elements: int, size: float | None, budget: float,
 ) -> None:  # fmt: skip
     """Run a program until the cases are decided, and print why it ended."""
-    from ..verification.program import Program, Record, until_decided
+    from ..verification.program import Program
+    from ..verification.refining import Record, until_decided
 
     program = Program(command=command, **limits)
     record = Record(folder, program, code=folder.resolve().name)
-    first = size or (_FIRST_TOLERANCE if program.is_adaptive else 1e-3)
+    first = (_FIRST_TOLERANCE if program.is_adaptive else 1e-3) if size is None else size
     with telling_what_is_kept(lambda: f"{folder} keeps all runs that ended"):
         ends = until_decided(
-            record, [CASES[name] for name in names], elements=elements, size=first, budget=budget,
+            record, [CASES[name] for name in names], elements=elements, step=first, budget=budget,
             told=lambda what: print_text(f"runs {what}", stderr=True),
         )  # fmt: skip
     held = record.submission

@@ -11,7 +11,7 @@ import pytest
 from rotbeam_exu import explorer
 from rotbeam_exu.cli import _COMMANDS, app, documented
 from rotbeam_exu.sweeps import grid
-from rotbeam_exu.verification import program
+from rotbeam_exu.verification import refining
 from rotbeam_exu.verification import verify as room
 from tests.beams import BEAM_TOML
 
@@ -43,7 +43,7 @@ def test_an_example_ends_well_or_begins_what_takes_minutes(call, tmp_path, monke
         raise KeyboardInterrupt
 
     for place, name in (
-        (grid, "solved"), (explorer, "explorer_data"), (room, "verify"), (program, "until_decided")
+        (grid, "solved"), (explorer, "explorer_data"), (room, "verify"), (refining, "until_decided")
     ):  # fmt: skip
         monkeypatch.setattr(place, name, begun)
     monkeypatch.chdir(tmp_path)

@@ -17,6 +17,7 @@ FILES = {
     "frame": "[numerics]\nframe = 'rotated'",
 }  # fmt: skip
 RUN, SWEEP, RESPOND = "run ", "sweep --omega 6 --ramp-time 3 ", "respond --from 3.6 --to 4 "
+COMMAND = "verify --command 'true {case} {elements} {step} {out}' -o mine"
 STABILITY, GRAVITY = "stability --omega 2 ", f"{RESPOND}--gravity --damping-ratio 0.1 "
 HELP = "requires an argument. rotbeam {} --help explains it"
 
@@ -70,6 +71,18 @@ HELP = "requires an argument. rotbeam {} --help explains it"
         ("figure 8 --style House", "house"),
         ("figure 8 --config ../blade.toml", "Unknown option: --config"),
         ("figure 13 --style sepia", "unknown style 'sepia'; known are house, journal, grey"),
+        ("verify --command x", "give the folder of your submission with --out"),
+        (f"{COMMAND} --element cable", "--command runs cases of the benchmark"),
+        (f"{COMMAND} --config ../blade.toml", "--command runs cases of the benchmark"),
+        (f"{COMMAND} --case S9", "there is no case 'S9': it must be L, S1"),
+        (f"{COMMAND} --elements 2.5", "it must be a whole number"),
+        (f"{COMMAND} --elements 0", "elements must be at least 1"),
+        (f"{COMMAND} --step nan", "step must be finite"),
+        (f"{COMMAND} --budget nan", "budget must be finite"),
+        (f"{COMMAND} --seconds 1min", "it must be a number"),
+        (f"{COMMAND} --memory 0", "memory must be positive"),
+        ("verify --command 'none {case} {elements} {step}' -o mine", "no program 'none'"),
+        ("verify --command 'true {case} {elements}' -o mine", "must have {case} and {elements}"),
         ("verify --element cabel", "unknown element 'cabel'; known are 'cable', "),
         ("backbone --omega 6 --variant frn", "variant must be one of "),
         ("backbone --omega 6 --mode 2 --variant FrE", "the reduced models are of lag 1"),

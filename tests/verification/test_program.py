@@ -9,8 +9,9 @@ import pytest
 
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import judged
-from rotbeam_exu.verification.program import Program, Record, until_decided
+from rotbeam_exu.verification.program import Program
 from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.refining import Record, until_decided
 from rotbeam_exu.verification.submission_files import read_submission
 
 S1, L = CASES["S1"], CASES["L"]
@@ -68,7 +69,7 @@ def test_runs_until_all_is_decided_and_goes_on_where_it_stopped(script, tmp_path
     """On the first meshes the error is thresholds and more: it asks for finer ones."""
     command, folder = script(size=10.0), tmp_path / "mine"
     record = Record(folder, Program(command=command), "mine")
-    ends = until_decided(record, [L, S1], elements=8, size=1e-3)
+    ends = until_decided(record, [L, S1], elements=8, step=1e-3)
     assert ends == {"L": "decided", "S1": "decided"}
     made = calls(tmp_path)
     assert len(set(made)) == len(made)
@@ -78,7 +79,7 @@ def test_runs_until_all_is_decided_and_goes_on_where_it_stopped(script, tmp_path
     assert record.submission.declaration == submission.declaration
     assert record.spent > 0.0
     again = Record(folder, Program(command=command), "mine")
-    assert until_decided(again, [L, S1], elements=8, size=1e-3) == ends
+    assert until_decided(again, [L, S1], elements=8, step=1e-3) == ends
     assert calls(tmp_path) == made
     assert again.spent == 0.0
 
@@ -92,7 +93,7 @@ def test_a_wrong_code_is_decided_too(script, tmp_path):
 def test_steps_are_halved_where_the_program_fails_and_failures_stay_on_record(script, tmp_path):
     """As of an explicit code; the sentence is its last line, letters that nobody sees escaped."""
     record = Record(tmp_path / "mine", Program(command=script(largest=1.1e-3)), "mine")
-    assert until_decided(record, [S1], size=1e-3) == {"S1": "decided"}
+    assert until_decided(record, [S1], step=1e-3) == {"S1": "decided"}
     runs = read_submission(tmp_path / "mine").runs
     failed = [one for one in runs if one.failure]
     assert {one.failure for one in failed} == {r"exit code 3: it runs away\x07"}
@@ -122,7 +123,7 @@ def test_without_out_it_writes_the_names_of_the_kit_where_it_runs(script, tmp_pa
 def test_tolerances(script, tmp_path):
     command = script(words="{case} {elements} {tolerance} {out}")
     record = Record(tmp_path / "mine", Program(command=command), "mine")
-    assert until_decided(record, [S1], size=1e-5) == {"S1": "decided"}
+    assert until_decided(record, [S1], step=1e-5) == {"S1": "decided"}
     runs = read_submission(tmp_path / "mine").runs
     assert all(one.is_adaptive for one in runs)
     assert {one.tolerance for one in runs} >= {1e-5, 2e-5, 4e-5}
@@ -231,10 +232,10 @@ def test_bad_commands(command, limits, sentence):
         Program(command=command, **limits)
 
 
-@pytest.mark.parametrize("given", [{"elements": 2.5}, {"elements": True}, {"size": -1e-3}])
+@pytest.mark.parametrize("given", [{"elements": 2.5}, {"elements": True}, {"step": -1e-3}])
 def test_bad_starts(tmp_path, given):
     record = Record(tmp_path / "mine", Program(command=f"true {OUT}"), "mine")
-    with pytest.raises((TypeError, ValueError), match="elements|size"):
+    with pytest.raises((TypeError, ValueError), match="elements|step"):
         until_decided(record, [S1], **given)
 
 
