@@ -32,6 +32,9 @@ COPY = 1e-7
 """Difference from the reference over max|q| below which q(t) is taken for a copy: no mesh reaches a
 hundred-thousandth of what passes."""
 
+FARTHEST_SWING = 0.9
+"""Amplitude over L beyond which a run has no part in the shift: orbits are not known there."""
+
 FREE_FOR = 20.0
 """Length of a free vibration [s]: nine turns or more of the first mode."""
 
@@ -146,7 +149,15 @@ class Histories:
         # A limit that is known less well than it is off mends nothing.
         off, doubt = mending(linear)
         swings = {run: one for run, one in self.oscillations.items() if not isinstance(one, str)}
-        runs = sorted(swings, key=lambda run: run.fineness)
+        # A coarse run may swing farther than any orbit is known: it says nothing of the shift.
+        runs = [
+            run
+            for run in sorted(swings, key=lambda run: run.fineness)
+            if swings[run].amplitude < FARTHEST_SWING
+        ]
+        if swings and not runs:
+            note = f"all runs swing by more than {FARTHEST_SWING:g} L, where no orbit is known"
+            return Finding(outcome=Outcome.UNDECIDED, note=note)
         try:
             true = self.reference.frequency_at([swings[run].amplitude for run in runs])
             first = self.reference.first_frequency(speed)

@@ -170,6 +170,14 @@ def test_mistakes_in_space_are_named(case, factors, name):
     assert [one.name for one in found] == [name] * (name is not None)
 
 
+def test_a_delay_in_space_is_measured():
+    """Of 3 ms, as all three columns have it."""
+    late = reference(CASES["W"]).history(np.maximum(TIME - 3e-3, 0.0))
+    submission = submitted(["W"], change=lambda _: late)
+    (found,) = mistakes_in(submission, judged(submission))
+    assert found.said == "q(t) is 3 ms late: let t = 0 be the start of Eq. 1"
+
+
 def of_line(**change):
     """Case P of a blade whose line is another."""
     blade = CASES["P"].blade

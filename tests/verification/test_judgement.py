@@ -306,3 +306,17 @@ def test_the_headline_counts_all_cases(whole):
     both = replace(coarse, findings={**coarse.findings, "S2": wrong})
     assert both.outcome == "1 of 20 agrees, 1 undecided (O), 1 differs (S2), 17 not submitted"
     assert both.passed is False
+
+
+@pytest.mark.parametrize(("size", "runs"), [(512.0, {32, 64}), (1e5, set())])
+def test_a_coarse_run_that_swings_too_far_has_no_part_in_the_shift(
+    made_of_the_exact_answer, size, runs
+):
+    """Its amplitude is beyond all orbits; errors are size/n², three times q(t) on 16 elements."""
+    entry = made_of_the_exact_answer(lambda _, q, n: q * (1.0 + size / n**2), elements=32)
+    spin_up = SpinUp(omega=6.0, ramp_time=3.0)
+    found = verify(entry, spin_up=spin_up, duration=12.0).findings["S"]["nonlinear shift"]
+    if runs:
+        assert set(found.runs.elements.tolist()) == runs
+    else:
+        assert found.note == "all runs swing by more than 0.9 L, where no orbit is known"
