@@ -120,7 +120,7 @@ def _until_decided(
     with telling_what_is_kept(lambda: f"{folder} keeps all runs that ended"):
         ends = until_decided(
             record, [CASES[name] for name in names], elements=elements, step=first, budget=budget,
-            told=lambda what: print_text(f"runs {what}", stderr=True),
+            announce=lambda what: print_text(f"runs {what}", stderr=True),
         )  # fmt: skip
     held = record.submission
     made = {(one.case, one.elements, one.refinement) for one in held.runs}

@@ -15,6 +15,7 @@ import subprocess
 import tempfile
 import time as clock
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -86,13 +87,13 @@ class Program:
 
         `size` is the step or the tolerance, `out` the file that it is to write.
         """
-        of = {"case": case.name, "elements": str(elements), "out": str(out)}
+        of = {"case": case.name, "elements": str(elements), "out": str(out.resolve())}
         of |= dict.fromkeys(("step", "tolerance"), runs.size_in_words(size))
-        words = [_WORD.sub(lambda word: of[word[1]], one) for one in shlex.split(self.command)]
-        here = None
+        here, words = None, shlex.split(self.command)
         if "{out}" not in self.command:  # in the folder of a submission of its own
             here = out.parent if case.asked is not Asked.HISTORY else out.parent.parent
-            words = [str(Path(word).resolve()) if Path(word).exists() else word for word in words]
+            words = [str(Path(word).resolve()) if Path(word).is_file() else word for word in words]
+        words = [_WORD.sub(lambda word: of[word[1]], one) for one in words]
         if self.memory is not None and os.name == "posix":
             most = str(round(self.memory * 2**20))
             words = ["/bin/sh", "-c", 'ulimit -v "$0"; exec "$@"', most, *words]
@@ -132,6 +133,7 @@ class Program:
 def _kill(process: subprocess.Popen[bytes]) -> None:
     """Kill a process, and those that it has started."""
     if os.name == "posix":
-        os.killpg(process.pid, signal.SIGKILL)
+        with suppress(ProcessLookupError):  # all have ended meanwhile
+            os.killpg(process.pid, signal.SIGKILL)
     else:
         process.kill()

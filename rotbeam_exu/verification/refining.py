@@ -48,6 +48,13 @@ class Record:
     code : str
         Name of the code, of a folder without entry.toml.
 
+    Attributes
+    ----------
+    submission : Submission
+        What is there.
+    spent : float
+        CPU time of the runs made [s], or time on the clock where it is not known.
+
     Raises
     ------
     MalformedSubmissionError
@@ -58,7 +65,7 @@ class Record:
 
     def __init__(self, folder: str | os.PathLike[str], program: Program, code: str) -> None:
         self.root, self.program = Path(folder), program
-        self.spent = 0.0  # [s] of CPU, or on the clock where it is not known
+        self.spent = 0.0
         declaration: Declaration | None = Declaration(code=code, benchmark=VERSION)
         if (self.root / entry.FILE).exists():
             declaration = entry.declaration_of(Folder(self.root))
@@ -92,18 +99,18 @@ class Record:
             out.parent.mkdir()
             failure, wall, cpu = self._made(case, elements, size, out)
             if not failure:
-                judged_alone = Folder(scratch)
-                held = runs.history_of(judged_alone, made.file, case, made.step)
+                alone = Folder(scratch)
+                held = runs.history_of(alone, made.file, case, made.step)
                 if held is None:
-                    failure = f"writes what cannot be judged: {judged_alone.faults[0].said}"
+                    failure = f"writes what cannot be judged: {alone.faults[0].said}"
                 else:
                     made = replace(made, time=held["time"], q=held["q"], rounding=held["rounding"])
                     (self.root / case.name).mkdir(exist_ok=True)
                     out.replace(self.root / made.file)
         made = replace(made, failure=failure, wall=round(wall, 4), cpu=round(cpu, 4))
-        held_runs = (*self.submission.runs, made)
-        _write(self.root / runs.FILE, runs.list_of(held_runs))
-        self.submission = replace(self.submission, runs=held_runs)
+        several = (*self.submission.runs, made)
+        _write(self.root / runs.FILE, runs.list_of(several))
+        self.submission = replace(self.submission, runs=several)
         return made
 
     def rows_of(self, case: Case, elements: int) -> list[Row]:
@@ -145,7 +152,7 @@ def _write(path: Path, text: str) -> None:
         partial.write_text(text, encoding="utf-8", newline="\n")
 
 
-Told = Callable[[str], None]
+Announce = Callable[[str], None]
 """Called with what is run next, in a few words."""
 
 
@@ -156,7 +163,7 @@ def until_decided(
     elements: int = 16,
     step: float = 1e-3,
     budget: float = 3600.0,
-    told: Told = lambda _: None,
+    announce: Announce = lambda _: None,
 ) -> dict[str, str]:
     """Run a program on finer and finer meshes and steps until each case is decided.
 
@@ -171,8 +178,8 @@ def until_decided(
         halved where the program fails.
     budget : float
         CPU time of the runs [s] after which no other begins.
-    told : callable, optional
-        See `Told`.
+    announce : callable, optional
+        See `Announce`.
 
     Returns
     -------
@@ -201,7 +208,7 @@ def until_decided(
     positive("budget", budget)
     ends = {}
     for case in cases:
-        meshes = _Meshes(record, case, elements, step, budget, told)
+        meshes = _Meshes(record, case, elements, step, budget, announce)
         ends[case.name] = next(filter(None, meshes.ends()), f"{_ROUNDS} refinements do not decide")
     return ends
 
@@ -210,9 +217,10 @@ class _Meshes:
     """The meshes and steps of a case."""
 
     def __init__(
-        self, record: Record, case: Case, elements: int, size: float, budget: float, told: Told
+        self, record: Record, case: Case, elements: int, size: float, budget: float,
+        announce: Announce,
     ) -> None:  # fmt: skip
-        self.record, self.case, self.budget, self.told = record, case, budget, told
+        self.record, self.case, self.budget, self.announce = record, case, budget, announce
         self.elements, self.size = max(elements, 2), size
         self.around = self.elements // 2, self.elements, 2 * self.elements
         self.in_time = case.asked is Asked.HISTORY
@@ -223,10 +231,10 @@ class _Meshes:
         for _ in range(_ROUNDS):
             findings = judged(self.record.submission, only=(self.case.name,)).findings
             found = list(findings.get(self.case.name, {}).values())
-            open_ones = [one for one in found if one.outcome.passed is None]
-            if not open_ones:
+            undecided = [one for one in found if one.outcome.passed is None]
+            if not undecided:
                 yield "decided"
-            wanted = [one.finer for one in open_ones]
+            wanted = [one.finer for one in undecided]
             meshes = [n for n, _ in wanted if n is not None]
             sizes = [h for _, h in wanted if h is not None]
             if not meshes and not sizes:
@@ -277,9 +285,9 @@ class _Meshes:
         if self._is_spent:
             return "the budget is spent"
         if not self.in_time:
-            self.told(f"{self.case.name}, {elements} elements")
+            self.announce(f"{self.case.name}, {elements} elements")
             return self.record.rows_of(self.case, elements)[0].failure
-        self.told(f"{self.case.name}, {elements} elements, {runs.size_in_words(size)}")
+        self.announce(f"{self.case.name}, {elements} elements, {runs.size_in_words(size)}")
         return self.record.run_of(self.case, elements, size).failure
 
     @property

@@ -102,7 +102,8 @@ def test_steps_are_halved_where_the_program_fails_and_failures_stay_on_record(sc
 
 
 def test_without_out_it_writes_the_names_of_the_kit_where_it_runs(script, tmp_path, monkeypatch):
-    """A program and a script that are named from here are found from there."""
+    """A program and a script that are named from here are found from there; S1 is no file."""
+    (tmp_path / "S1").touch()
     words = "{case} {elements} {step}"
     script()
     text = (tmp_path / "mine.py").read_text()
