@@ -175,7 +175,7 @@ class Run:
     @property
     def step_in_words(self) -> str:
         """The step in ms, or the tolerance."""
-        return f"tol {self.tolerance:g}" if self.is_adaptive else f"{1e3 * self.step:g} ms"
+        return f"tol {self.tolerance:g}" if self.is_adaptive else f"{1e3 * self.step:.3g} ms"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
