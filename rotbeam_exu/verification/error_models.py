@@ -48,12 +48,13 @@ _LEAST = 1e-4  # the same of what mesh or step has alone, so that sums of both c
 _BELIEVED = 0.5
 """Weight of the declared order; the rest is that of any order around two."""
 
-_DECLARED_SPREAD, _ANY_SPREADS = 0.12, {0.5: 0.8, 1.1: 0.2}  # of ln p, each with its share
+_DECLARED_SPREAD, _ANY_SPREADS = 0.12, {0.5: 0.65, 1.3: 0.35}  # of ln p, each with its share
 
-_COVERED, _COVERED_BY_NEAR = 0.945, 0.98
-"""Probability that the limit lies within its bar, and of meshes that differ by less than _NEAR."""
+_COVERED, _COVERED_BY_FEW = 0.945, 0.98
+"""Probability that the limit lies within its bar, and of few runs on meshes that hardly differ."""
 
-_NEAR = 3.0
+_FEW, _NEAR = 3, 3.0
+"""Number of such runs, and how many times finer their finest mesh is at most."""
 
 _MOST_FREEDOM = 2
 """Degrees of freedom by which the scale of errors is known: runs of one code are not independent,
@@ -243,7 +244,8 @@ def bar_of(models: Models, evidence: FloatArray, weights: FloatArray, runs: Floa
     worst = runs[:, np.argmax(np.einsum("it,ij,jt->t", runs, spread, runs))]
     of_model = np.sqrt(np.maximum(np.einsum("gij,i,j->g", of_each, worst, worst), 0.0))
     student = special.stdtrit(freedom, _PROBABILITIES)
-    probability = _COVERED if models.x.max() >= _NEAR else _COVERED_BY_NEAR
+    few = len(runs) <= _FEW and models.x.max() < _NEAR
+    probability = _COVERED_BY_FEW if few else _COVERED
     off = np.abs((apart @ worst)[:, None] + of_model[:, None] * student).ravel()
     order = np.argsort(off)
     covered = np.cumsum(np.repeat(share / _PROBABILITIES.size, _PROBABILITIES.size)[order])
