@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
@@ -18,7 +18,10 @@ from .options import Number, Whole
 from .output import counter, print_columns, print_text
 from .request import Request, element_of, uses
 
-_FIRST_TOLERANCE = 1e-6
+if TYPE_CHECKING:
+    from ..verification.program import Program
+
+_FIRST_STEP, _FIRST_TOLERANCE = 1e-3, 1e-6
 
 
 @uses("motion", "numerics.duration", "numerics.step")
@@ -75,6 +78,7 @@ def verify(
     $ rotbeam verify --command "./mine {case} {elements} {step} {out}" -o runs
     """
     from ..verification.entries import entries_at_hand, formulation_entry
+    from ..verification.program import Program
     from ..verification.verify import DEFAULT
     from ..verification.verify import verify as verification_of
 
@@ -86,9 +90,10 @@ def verify(
                 "--command runs cases of the benchmark: leave out --element and --config"
             )
         names = cases_named(case) or DEFAULT
-        limits = {"seconds": seconds, "memory": memory}
-        _until_decided(command, out, names, limits, elements=elements, size=step, budget=budget)
+        program = Program(command=command, seconds=seconds, memory=memory)
+        _until_decided(program, out, names, elements=elements, step=step, budget=budget)
         judge(out, case=list(names))
+        return
     entries_of_user = [formulation_entry(element_of(name)) for name in element or ()]
     motion = request.motion
     entries, mine = entries_of_user or entries_at_hand(), dict[str, Any]()
@@ -107,16 +112,14 @@ def verify(
 
 
 def _until_decided(
-    command: str, folder: Path, names: Sequence[str], limits: dict[str, Any],
-    *, elements: int, size: float | None, budget: float,
+    program: Program, folder: Path, names: Sequence[str], *, elements: int, step: float | None,
+    budget: float,
 ) -> None:  # fmt: skip
     """Run a program until the cases are decided, and print why it ended."""
-    from ..verification.program import Program
     from ..verification.refining import Record, until_decided
 
-    program = Program(command=command, **limits)
     record = Record(folder, program, code=folder.resolve().name)
-    first = (_FIRST_TOLERANCE if program.is_adaptive else 1e-3) if size is None else size
+    first = (_FIRST_TOLERANCE if program.is_adaptive else _FIRST_STEP) if step is None else step
     with telling_what_is_kept(lambda: f"{folder} keeps all runs that ended"):
         ends = until_decided(
             record, [CASES[name] for name in names], elements=elements, step=first, budget=budget,

@@ -55,6 +55,11 @@ class Order:
         return self.declared is not None and self.value < LEAST_SHARE * self.declared
 
     @property
+    def surely_low(self) -> bool:
+        """True where it is as low with its standard deviation added."""
+        return self.declared is not None and self.value + self.bar < LEAST_SHARE * self.declared
+
+    @property
     def exponential(self) -> bool:
         """True of spectral methods and of elements whose degree is raised."""
         return self.why == _EXPONENTIAL

@@ -30,7 +30,13 @@ _ORDERS = (0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)
 _STEEP = (12.0, 18.0, 27.0)
 """Orders of the mesh alone: on a few meshes a power so high stands for an exponential fall."""
 
-_VARIATIONS = {(0.02, 0.0): 0.33, (0.3, 0.0): 0.12, (1.0, 0.0): 0.3, (1.0, 1.0): 0.25}
+_VARIATIONS = {
+    (0.02, 0.0): 0.28,
+    (0.1, 0.0): 0.1,
+    (0.3, 0.0): 0.1,
+    (1.0, 0.0): 0.3,
+    (1.0, 1.0): 0.22,
+}
 """κ of mesh and step on the coarsest, and the power by which it falls to the finest.
 
 (1, 0) has no rule at all; in (1, 1) a term one order higher is as large on the coarsest.

@@ -12,7 +12,7 @@ from analytic.threads import one_thread
 
 from .case import TIP, Asked, Case
 from .cases import CASES
-from .convergence import LEAST_SHARE, Convergence, Order, converged
+from .convergence import Convergence, Order, converged
 from .history import Histories, judged_apart, mending
 from .outcomes import Finding, Outcome, finding_of, worst_of
 from .references import Reference, reference
@@ -244,7 +244,7 @@ def _missed_orders(finding: Finding, quantity: str) -> list[str]:
         f"{quantity} converges in the {name} by order {order.value:.1f}, "
         f"{order.declared:g} is declared: {_LOW[name]}"
         for name, order in orders.items()
-        if order.declared and order.value + order.bar < LEAST_SHARE * order.declared
+        if order.surely_low
     ]
 
 

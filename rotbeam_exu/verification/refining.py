@@ -208,8 +208,7 @@ def until_decided(
     positive("budget", budget)
     ends = {}
     for case in cases:
-        meshes = _Meshes(record, case, elements, step, budget, announce)
-        ends[case.name] = next(filter(None, meshes.ends()), f"{_ROUNDS} refinements do not decide")
+        ends[case.name] = _Meshes(record, case, elements, step, budget, announce).end()
     return ends
 
 
@@ -225,27 +224,29 @@ class _Meshes:
         self.around = self.elements // 2, self.elements, 2 * self.elements
         self.in_time = case.asked is Asked.HISTORY
 
-    def ends(self) -> Iterator[str]:
-        """Yield after each round why no other is made; nothing where there is one."""
-        yield self._first()
+    def end(self) -> str:
+        """Make runs until the case is decided, and return why no other is made."""
+        failure = self._first()
         for _ in range(_ROUNDS):
+            if failure:
+                return failure
             findings = judged(self.record.submission, only=(self.case.name,)).findings
-            found = list(findings.get(self.case.name, {}).values())
+            found = findings.get(self.case.name, {}).values()
             undecided = [one for one in found if one.outcome.passed is None]
             if not undecided:
-                yield "decided"
-            wanted = [one.finer for one in undecided]
-            meshes = [n for n, _ in wanted if n is not None]
-            sizes = [h for _, h in wanted if h is not None]
+                return "decided"
+            meshes = [n for n, _ in (one.finer for one in undecided) if n is not None]
+            sizes = [h for _, h in (one.finer for one in undecided) if h is not None]
             if not meshes and not sizes:
-                yield "no finer run would decide: see the note of the judge"
-            yield self._finer(max(meshes, default=None), min(sizes, default=None))
+                return "no finer run would decide: see the note of the judge"
+            failure = self._finer(max(meshes, default=None), min(sizes, default=None))
+        return failure or f"{_ROUNDS} refinements do not decide"
 
     def _first(self) -> str:
         """Run three meshes, and three steps on the middle one."""
         if not self.in_time:
-            return self._any_fails([self._at(n, 0.0) for n in self.around])
-        for _ in range(_HALVINGS):
+            return _first_of([self._at(n, 0.0) for n in self.around])
+        for _ in range(_HALVINGS + 1):
             h = self.size
             first = [(n, 2.0 * h) for n in self.around]
             failures = []
@@ -254,9 +255,9 @@ class _Meshes:
                 if failures[-1]:
                     break
             if not failures[-1] or STOPPED in failures[-1] or self._is_spent:
-                return self._any_fails(failures)
+                return _first_of(failures)
             self.size = 0.5 * h
-        return f"it fails with a step of {2.0 * self.size:.1g} s, too: {failures[-1]}"
+        return f"fails at {runs.size_in_words(2.0 * self.size)}, too: {failures[-1]}"
 
     def _finer(self, elements: int | None, size: float | None) -> str:
         """Run a finer mesh and a smaller step, as far as they are wanted."""
@@ -278,7 +279,7 @@ class _Meshes:
             smallest = min(one.refinement for one in made)
             h = max(min(size, smallest / 1.5), smallest / _FARTHEST)
             failures.append(self._at(self.elements, float(f"{h:.1e}")))
-        return self._any_fails(failures)
+        return _first_of(failures)
 
     def _at(self, elements: int, size: float) -> str:
         """Make a run, and return its failure."""
@@ -294,5 +295,6 @@ class _Meshes:
     def _is_spent(self) -> bool:
         return self.record.spent >= self.budget
 
-    def _any_fails(self, failures: Sequence[str]) -> str:
-        return next(filter(None, failures), "")
+
+def _first_of(failures: Sequence[str]) -> str:
+    return next(filter(None, failures), "")

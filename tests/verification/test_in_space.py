@@ -171,7 +171,7 @@ def test_mistakes_in_space_are_named(case, factors, name):
 
 
 def test_a_delay_in_space_is_measured():
-    """Of 3 ms, as all three columns have it."""
+    """Lag, flap and twist are 3 ms late."""
     late = reference(CASES["W"]).history(np.maximum(TIME - 3e-3, 0.0))
     submission = submitted(["W"], change=lambda _: late)
     (found,) = mistakes_in(submission, judged(submission))

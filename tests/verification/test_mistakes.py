@@ -185,7 +185,7 @@ def shifted(q, delay):
 
 @pytest.mark.parametrize(("mass", "stiffness"), [(1.02, 1.0), (1.0, 0.97), (2.0, 1.0), (0.5, 1.0)])
 def test_a_mass_or_a_stiffness_that_is_off_is_measured(mass, stiffness):
-    """Of histories by their frequency; the code has an error of 1e-3 of its own."""
+    """Its factor follows from the frequency; the code has an error of 1e-3 of its own."""
     time = np.arange(0.0, 12.0, 0.02)
     exact = spin_up_response(S1.blade, S1.motion, time, tolerance=1e-4).q
     section = replace(
@@ -212,8 +212,14 @@ def test_frequencies_of_another_mass(speeds):
     assert found == "mass"
 
 
-def test_an_order_that_is_lower_than_declared_is_told(made_of_the_exact_answer):
-    """Of order two in the mesh where four are declared; the step's is as declared."""
+def test_a_mass_that_is_five_times_too_large_is_another_mistake():
+    """A factor of four is the most that is taken for a wrong mass."""
+    assert mistake_in_frequencies(lambda w, speed: w / np.sqrt(5.0), (0.0,)) is None
+    assert mistake_in_frequencies(lambda w, speed: w / np.sqrt(3.9), (0.0,)) == "mass"
+
+
+def test_an_order_that_is_lower_than_declared_gets_a_sentence(made_of_the_exact_answer):
+    """The mesh has order two where four are declared, the step the declared one."""
     entry = made_of_the_exact_answer(elements=32, order=4.0)
     (remarks,) = verify(
         entry, spin_up=SpinUp(omega=6.0, ramp_time=3.0), duration=9.0

@@ -78,6 +78,17 @@ def test_runs_until_all_is_decided_and_goes_on_where_it_stopped(script, tmp_path
     assert judged(submission).passed
     assert record.submission.declaration == submission.declaration
     assert record.spent > 0.0
+    # To repeat a run, its row and its file are deleted.
+    dropped = max(submission.runs, key=lambda run: run.fineness)
+    (folder / dropped.file).unlink()
+    rows = (folder / "runs.csv").read_text().splitlines()
+    kept = [row for row in rows if not row.startswith(dropped.file)]
+    (folder / "runs.csv").write_text("\n".join(kept) + "\n")
+    anew = Record(folder, Program(command=command), "mine")
+    assert until_decided(anew, [L, S1], elements=8, step=1e-3) == ends
+    extra = calls(tmp_path)[len(made) :]
+    assert extra == [f"S1 {dropped.elements} {dropped.step}"]
+    made += extra
     again = Record(folder, Program(command=command), "mine")
     assert until_decided(again, [L, S1], elements=8, step=1e-3) == ends
     assert calls(tmp_path) == made

@@ -19,8 +19,8 @@ KINDS = "asymptotic", "pre-asymptotic", "oscillating", "noisy"
 PAGES = Path(__file__).parents[2] / "docs" / "howto"
 DEFAULT, MANY = 20, 2000
 WHOLE = (8, 16, 32, 16, 16), (2e-3, 2e-3, 2e-3, 1e-3, 4e-3)
-UNTOLD = 0.05
-"""Share of the tolerance by which noise of 0.006 moves a limit at most, told or not."""
+UNREPORTED = 0.05
+"""Share of the tolerance by which noise of 0.006, not reported, moves a limit at most."""
 
 FAR = 3.4
 """Of FrE at 6 rad/s: 17 % of the shift, of which 5 % pass."""
@@ -77,8 +77,8 @@ def test_a_right_code_is_never_told_that_it_differs_and_bars_cover(
     missed, differs = 0, 0
     for _ in range(count):
         fit, outcome = fitted(drawn(rng, kind, runs, order), runs, declared)
-        # Of noise that is not told no verdict hangs on what is missed.
-        missed += abs(fit.limit) > max(fit.bar, UNTOLD * (kind == "noisy"))
+        # No verdict depends on a limit that unreported noise moves by so little.
+        missed += abs(fit.limit) > max(fit.bar, UNREPORTED * (kind == "noisy"))
         differs += outcome is Outcome.DIFFERS
     assert missed <= at_most(count, 0.10 if kind == "oscillating" else 0.05)
     assert differs <= at_most(count, 1e-3)

@@ -9,9 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.kit import STATIC, write_kit
 from rotbeam_exu.verification.outcomes import Outcome
+from rotbeam_exu.verification.program import Program
+from rotbeam_exu.verification.refining import Record, until_decided
 from rotbeam_exu.verification.submission_files import read_submission
 from tests.verification.test_kit import columns as history
 
@@ -51,6 +54,19 @@ def chain(tmp_path_factory):
 def rows(path):
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
+
+
+def test_the_chain_runs_until_it_is_decided(chain, kit, tmp_path):
+    """It needs no {out}; docs/howto/judge.md has the numbers of runs."""
+    command = f"{chain} {{case}} {{elements}} {{step}} {kit}"
+    record = Record(tmp_path / "mine", Program(command=command), "mine")
+    ends = until_decided(record, [CASES["S1"], CASES["L"]], elements=32)
+    assert set(ends.values()) == {"decided"}
+    submission = read_submission(tmp_path / "mine")
+    assert len(submission.runs) == 6
+    assert len({row.elements for row in submission.rows}) == 4
+    found = judged(submission)
+    assert {found.outcome_of(name) for name in ends} == {Outcome.REFERENCE}
 
 
 def fortran(folder):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -25,7 +26,7 @@ _LATEST = 0.125
 _TRIED = 101
 _ONE_STEP = 0.05  # share of a step or a sample by which a delay is taken for it
 
-_MOST_OFF = math.log(4.0)  # of the mass: factors of units are larger
+_MOST_OFF = 0.5 * math.log(4.0)  # of ln √g: factors of units are larger
 _CORRECTIONS = 3
 _FOUND = 1e-6  # of √g, in the fixed point that frequencies have
 
@@ -37,9 +38,7 @@ def delays(
 
     q and `true` are [m] at times [s], in space (samples, 3); a step [s] may be NaN.
     """
-    most = (
-        _LATEST * 2.0 * math.pi / float(case.frequencies(case.rotation.omega, case.theories[0])[0])
-    )
+    most = _LATEST * 2.0 * math.pi / _first(case, case.rotation.omega)
     shape, scale = interpolate.CubicSpline(time, true), np.abs(true).max(axis=0)
     within = (time >= most) & (time <= time[-1] - most)
     if not within.any():
@@ -64,6 +63,11 @@ def delays(
     yield "delay", said, left(delay)
 
 
+def _first(case: Case, speed: float) -> float:
+    """Return the first natural frequency at a speed [rad/s]."""
+    return float(case.frequencies(speed, case.theories[0])[0])
+
+
 def off_in_mass(frequency_at: Callable[[float], float], speed: float, found: float) -> float:
     """Return √g of the mass by which a frequency [rad/s] at a speed [rad/s] is that found.
 
@@ -73,7 +77,7 @@ def off_in_mass(frequency_at: Callable[[float], float], speed: float, found: flo
     root = 1.0
     for _ in range(60):
         before, root = root, frequency_at(root * speed) / found
-        if abs(math.log(root)) > 0.5 * _MOST_OFF:
+        if abs(math.log(root)) > _MOST_OFF:
             return math.nan
         if abs(root - before) < _FOUND or not speed:
             return root
@@ -92,25 +96,22 @@ def said_of_mass(root: float) -> str:
 def of_another_mass(
     case: Case, time: FloatArray, q: FloatArray, true: FloatArray
 ) -> Iterator[tuple[str, str, float]]:
-    """Yield the spin-up of a blade whose mass or stiffness is off, found by its frequency."""
+    """Yield the spin-up of a blade with another mass or stiffness, which its frequency gives."""
     motion, blade = case.rotation, case.blade
     loaded = bool(case.loads) or blade.damping.bending > 0.0 or blade.damping.axial > 0.0
     if type(motion) is not SpinUp or not case.oscillates or loaded:
         return
-    first = float(case.frequencies(motion.omega, case.theories[0])[0])
+    first = _first(case, motion.omega)
 
     def swing(of: FloatArray) -> float:
         return oscillation_of(time, of / blade.length, motion.ramp_time, first).frequency
 
-    def frequency_at(speed: float) -> float:
-        return float(case.frequencies(speed, case.theories[0])[0])
-
     try:
         found = swing(q)
-        root = off_in_mass(frequency_at, motion.omega, first * found / swing(true))
+        root = off_in_mass(partial(_first, case), motion.omega, first * found / swing(true))
         before: tuple[float, float] | None = None
-        # Of √g the linear frequency is ω(√g Ω)/√g, whose slope is -ω_0²/ω².
-        slope = -((frequency_at(0.0) / first) ** 2)
+        # The linear frequency with g is ω(√g Ω)/√g; its slope over ln √g is -ω_0²/ω².
+        slope = -((_first(case, 0.0) / first) ** 2)
         for _ in range(_CORRECTIONS):
             if math.isnan(root) or abs(math.log(root)) > _MOST_OFF:
                 return
