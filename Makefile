@@ -26,9 +26,10 @@ golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 	$(BIN)/python tests/comparison/golden/regenerate.py
 	$(BIN)/python tests/golden/test_paper_beam.py
 
-references: $(VENV)/.kit  ## the benchmark's reference data and its problem statement
+references: $(VENV)/.kit  ## the benchmark's reference data, its problem statement, and the Explorer's data
 	$(BIN)/python tools/references.py
 	$(BIN)/python tools/problem.py
+	$(BIN)/python tools/explorer.py
 
 codes: $(CODES)/.made  ## other codes run the benchmark anew, in an hour; wants g++, CalculiX's ccx, OPENFAST for BeamDyn, WITH_MBDYN for MBDyn, CHRONO for Project Chrono
 	for script in models/codes/*/run.py; do $(CODES)/bin/python $$script || exit 1; done

@@ -6,13 +6,16 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import re
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from docutils import nodes
 from fontTools.subset import Options, Subsetter, load_font, save_font
 from matplotlib.animation import FFMpegWriter
 from sphinx.util.fileutil import copy_asset
@@ -109,7 +112,9 @@ sphinx_gallery_conf = {
 
 html_theme = "pydata_sphinx_theme"
 html_title = "rotbeam_exu"
-html_static_path = ["_static"]
+html_static_path = ["_static", "images/film.png"]
+html_favicon = "_static/icon.svg"
+html_baseurl = os.environ.get("SITE_URL", "")  # where it will be: previews of links need it
 templates_path = ["_templates"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
@@ -162,6 +167,16 @@ def without_half_lists(app: Any, page: str, template: str, context: Any, tree: A
     del app, page, template, tree
     body = context.get("body", "")
     context["body"] = body.replace("<dl>\n<dd><em", '<dl role="presentation">\n<dd><em')
+
+
+def with_description(app: Any, page: str, template: str, context: Any, tree: Any) -> None:
+    """Give a page its first paragraph as the description that searches and previews show."""
+    del app, page, template
+    text = ""
+    if tree is not None:
+        paragraphs = (one.astext() for one in tree.findall(nodes.paragraph))
+        text = next((" ".join(one.split()) for one in paragraphs if len(one) > 40), "")
+    context["description"] = textwrap.shorten(text, 200, placeholder=" ...")
 
 
 def spread(app: Any, env: Any, pages: list[str]) -> None:
@@ -234,5 +249,6 @@ def setup(app: Any) -> None:
     app.connect("autodoc-process-docstring", plain, priority=400)
     app.connect("source-read", without_other_hosts)
     app.connect("html-page-context", without_half_lists)
+    app.connect("html-page-context", with_description)
     app.connect("env-before-read-docs", spread)
     app.connect("builder-inited", write_interactive, priority=100)

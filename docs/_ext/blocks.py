@@ -55,12 +55,16 @@ def figure(folder: Path, axes: Any, name: str, caption: str) -> None:
     print(f"```{{figure}} {source}\n:alt: {brief}\n:width: {width}px\n\n{text}\n```")  # noqa: T201
 
 
-def film(pages: Path, source: str, words: str) -> None:
-    """Print a film that can be stopped; where no ffmpeg made it, the moving picture."""
+def film(pages: Path, source: str, words: str, poster: str = "") -> None:
+    """Print a film that can be stopped; where no ffmpeg made it, the moving picture.
+
+    With a poster only that picture is loaded before the film is played.
+    """
     if (pages / f"{source.lstrip('./')}.mp4").exists():
+        still = f'preload="none" poster="{poster}" ' if poster else ""
         print(  # noqa: T201
             f'<video controls muted loop playsinline width="640" aria-label="{words}" '
-            f'src="{source}.mp4"></video>\n'
+            f'{still}src="{source}.mp4"></video>\n'
         )
     else:
         print(f'<img src="{source}.gif" alt="{words}">\n')  # noqa: T201

@@ -1,10 +1,11 @@
-"""Draw the README's pictures and two of the pages' again: `make images`, two minutes.
+"""Draw the README's pictures, two of the pages' and the drawings again: `make images`, two minutes.
 
 Figure 14 is drawn from the golden data, which tests/comparison/golden/regenerate.py computes.
 """
 
 from pathlib import Path
 
+import drawings
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,7 +15,7 @@ from matplotlib.axes import Axes
 from PIL import Image
 from scipy.interpolate import CubicSpline
 
-from analytic import Beam, SpinUp, spin_up_response
+from analytic import Beam, SpinUp, linear_response, spin_up_response
 from analytic.reduced.any_blade import blade_oscillator
 from rotbeam_exu import comparison, dataset_of, figures, simulate
 
@@ -82,6 +83,21 @@ def twisted() -> Axes:
     return film._fig.axes[0]
 
 
+def lost() -> Axes:
+    """Return the film's picture where a linear model has lost the beam, 2.75 s after its start."""
+    times, points = 0.05 * np.arange(121), np.linspace(0.0, Beam.reference().length, 41)
+    both = [
+        dataset_of(
+            response(Beam.reference(), SpinUp(omega=4.0, ramp_time=3.0), times, points=points)
+        )
+        for response in (spin_up_response, linear_response)
+    ]
+    film = figures.animate(both[0], beside=both[1])
+    film._draw_frame(55)
+    film._draw_was_started = True
+    return film._fig.axes[0]
+
+
 def write(ax: Axes, name: str) -> None:
     """Write a figure in full color: 8 bits each of red, green and blue, no palette."""
     path = HERE / f"{name}.png"
@@ -98,3 +114,5 @@ if __name__ == "__main__":
     write(figures.spin_up(run)[0], "spin_up")
     write(softening_by_plane(), "softening_by_plane")
     write(twisted(), "shape")
+    write(lost(), "film")
+    drawings.write()

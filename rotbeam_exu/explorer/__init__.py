@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 import json
+import lzma
 from importlib import resources
 
 import numpy as np
@@ -19,48 +20,58 @@ __all__ = ["AMPLITUDES", "EXACT_RAMP_TIMES", "OMEGAS", "explorer_data", "explore
 
 _SCRIPTS = (
     "data", "state", "drawing", "chart", "backbones", "orbit", "softening", "beam", "spin_up",
-    "table", "table_file", "own", "export", "main",
+    "turning", "table", "table_file", "own", "export", "main",
 )  # fmt: skip
 """Scripts of page/, in the order in which they run."""
+SHIPPED = "reference.json.xz"
+"""Data of the paper's beam, as `packed` gives them; written by tools/explorer.py."""
 _STEP = 5e-5
 """Step to which positions are rounded, of the length: a hundredth of a pixel."""
+_FINE = 2.0**-23
+"""Step to which harmonics and amplitudes are rounded, as single precision is: they compress well."""
 _UNKNOWN = -32768
 """In their place where there are none."""
 
 
-def explorer_page(data: xr.Dataset) -> str:
+def explorer_page(data: xr.Dataset | None = None) -> str:
     """Return the Explorer as the text of an HTML page, which needs nothing else to be viewed.
 
     Parameters
     ----------
-    data : Dataset
-        As made by `explorer_data`.
+    data : Dataset, optional
+        As made by `explorer_data`; by default those of the paper's beam, which come with the
+        package.
 
     Examples
     --------
     >>> from pathlib import Path
-    >>> page = explorer_page(explorer_data())  # doctest: +SKIP
-    >>> Path("explorer.html").write_text(page, encoding="utf-8")  # doctest: +SKIP
+    >>> _ = Path("explorer.html").write_text(explorer_page(), encoding="utf-8")  # doctest: +SKIP
     """
+    document = _shipped() if data is None else packed(data)
     scripts = "\n".join(_part(f"{name}.js") for name in _SCRIPTS)
     page = _part("page.html").replace("/*STYLE*/", _part("style.css"))
     page = page.replace("/*THEME*/", _part("theme.js")).replace("/*SCRIPTS*/", scripts)
     # "<" escaped: no text in the data can end the script.
-    return page.replace("/*DATA*/null", json.dumps(_document(data)).replace("<", "\\u003c"))
+    return page.replace("/*DATA*/null", document.replace("<", "\\u003c"))
 
 
 def _part(name: str) -> str:
     return resources.files(__name__).joinpath("page", name).read_text(encoding="utf-8")
 
 
-def _document(data: xr.Dataset) -> dict[str, object]:
+def _shipped() -> str:
+    return lzma.decompress(resources.files(__name__).joinpath(SHIPPED).read_bytes()).decode()
+
+
+def packed(data: xr.Dataset) -> str:
+    """Return the data as JSON that the page's scripts read: numbers, and arrays in base64."""
     whole = (
         "omega", "a", "omega_n", "lambda_omega", "kappa", "h2", "lambda_x", "exact_omega_n",
         "exact_lambda_omega", "exact_frequency", "fe_omega", "fe_amplitude", "fe_frequency",
         "fe_omega_n", "ramp_time", "exact_ramp_time", "ramp_curve",
     )  # fmt: skip
     half = ("first_harmonic", "harmonics", "exact_left", "closed_left")
-    return {
+    document = {
         "models": data["model"].to_numpy().tolist(),
         "notes": data["note"].to_numpy().tolist(),
         "frequencyScale": data.attrs["frequency_scale"],
@@ -72,10 +83,11 @@ def _document(data: xr.Dataset) -> dict[str, object]:
         "unknown": _UNKNOWN,
         "arrays": {
             **{name: _packed(data[name], "float64") for name in whole},
-            **{name: _packed(data[name], "float32") for name in half},
+            **{name: _packed(np.rint(data[name] / _FINE) * _FINE, "float32") for name in half},
             **{name: _rounded(data[name]) for name in ("axis_x", "axis_y", "spin_up")},
         },
     }
+    return json.dumps(document)
 
 
 def _rounded(values: xr.DataArray) -> dict[str, object]:

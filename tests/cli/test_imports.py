@@ -70,11 +70,12 @@ THEORY = {
     "animate --duration 0.1 --rate 10 -o out/film.gif": "written",
     "figure 13 -o out": "written",
     "kit out/kit": "files in",
+    "explore -o out/explorer.html": "written",
     "judge out/kit/sample --report out/page.html": "outcome",
 }
 NEEDS_EXUDYN = (
-    "run --elements 2 -o out", "verify --element cable", "explore -o out/explorer.html",
-    "compare -o out", "ramp --omega 2 --longest 4 --points 1 -o out/other",
+    "run --elements 2 -o out", "verify --element cable", "compare -o out",
+    "ramp --omega 2 --longest 4 --points 1 -o out/other",
 )  # fmt: skip
 
 

@@ -115,13 +115,13 @@ def test_gravity_would_bend_and_buckle_the_strip(beam):
 
 @pytest.mark.slow  # designed ramps are tested in test_residual
 def test_a_designed_ramp_swings_on_the_way_and_knows_its_blade(beam):
-    page, readme = "theory/spin_up.md", "../README.md"
+    page, findings = "theory/spin_up.md", "findings.md"
     assert says(page, "the tip goes to $-0.71L$")
     assert says(page, r"is $2.1\cdot10^{-2}L$, with 0.1 % it is $2\cdot10^{-3}L$")
     assert says("howto/quiet_spin_up.md", r"causes $2.1\cdot10^{-2}L$ instead of $3\cdot10^{-6}L$")
-    assert says(readme, "in 2 s, the residual amplitude is 3e-6 L")
+    assert says(findings, "in 2 s, the residual amplitude is 3e-6 L")
     assert says(
-        readme,
+        findings,
         "the tip is at -0.71 L, and an error of 1 % in the blade's frequency causes 2.1e-2 L",
     )
     ramp = design_ramp(beam, omega=6.0, duration=2.0)

@@ -46,7 +46,7 @@ def data():
 def url(data, tmp_path_factory):
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
     path.write_text(explorer_page(data), encoding="utf-8")
-    return path.as_uri()
+    return path.as_uri() + "#view=expert"
 
 
 @pytest.fixture(scope="session")
@@ -130,7 +130,7 @@ def page(wide_page):
 def turn_to(page, fragment):
     """Show what the page opened with this behind # shows."""
     page.evaluate(
-        "hash => { history.replaceState(null, '', '#' + hash); restore(); drawAll(); }", fragment
+        "hash => { history.replaceState(null, '', '#view=expert&' + hash); restore(); drawAll(); }", fragment
     )
     settle(page)
 

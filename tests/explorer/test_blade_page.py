@@ -16,7 +16,7 @@ def test_a_blade_has_a_page_of_its_own(open_page, drawn, beam, tmp_path):
     )  # fmt: skip
     path = tmp_path / "blade.html"
     path.write_text(explorer_page(data), encoding="utf-8")
-    page = open_page(path.as_uri())
+    page = open_page(path.as_uri() + "#view=expert")
     assert "on a hub of 4 m" in page.locator("#blade").inner_text()
     model = reduced_model(blade, 6.0, "FrM")
     row = page.locator("tr[data-model=FrM]")
@@ -40,4 +40,4 @@ def test_it_begins_in_the_middle_of_what_there_is(open_page, page, data, tmp_pat
     times = {name: data[name] / 20.0 for name in ("ramp_time", "exact_ramp_time", "time")}
     path = tmp_path / "shorter.html"
     path.write_text(explorer_page(scaled.assign_coords(times)), encoding="utf-8")
-    assert open_page(path.as_uri()).evaluate(start) == [120.0, 0.15, 2]
+    assert open_page(path.as_uri() + "#view=expert").evaluate(start) == [120.0, 0.15, 2]

@@ -71,7 +71,8 @@ let last = 0;
 function tick(now) {
   if (state.playing) {
     state.phase = (state.phase + Math.min(now - last, 100) / 1000 * (exactFrequency(state.w, state.a) || 0)) % (2 * Math.PI);
-    showPhase();
+    if (state.view === "simple") turn(Math.min(now - last, 100) / 1000);
+    else showPhase();
     last = now;
     requestAnimationFrame(tick);
   }

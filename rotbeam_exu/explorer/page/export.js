@@ -122,7 +122,7 @@ async function save(figure, kind) {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
-for (const figure of document.querySelectorAll("figure")) {
+for (const figure of document.querySelectorAll("figure:not(#turns)")) {
   const menu = document.createElement("details"), offered = document.createElement("div");
   menu.className = "save";
   menu.append(Object.assign(document.createElement("summary"), {textContent: "Save"}), offered);

@@ -27,7 +27,7 @@ function showControls() {
   rampInput.value = state.t; rampInput.setAttribute("aria-valuetext", `${plain(T())} s`);
   document.getElementById("ramp-value").textContent = `${plain(T())} s`;
   for (const button of document.querySelectorAll("#jumps button")) button.setAttribute("aria-pressed", Math.abs(button.dataset.omega - D.omega[state.w]) < 1e-9);
-  for (const key of ["scale", "norm"])
+  for (const key of ["scale", "norm", "view"])
     for (const button of document.querySelectorAll(`[data-${key}]`)) button.setAttribute("aria-pressed", button.dataset[key] === state[key]);
 }
 // Beside the charts where there is room, else below; on a phone the table is folded above them. Tab follows what is seen.
@@ -54,7 +54,7 @@ window.addEventListener("afterprint", () => {
   for (const e of folded) e.open = false;
 });
 function drawAll() {
-  showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase(); drawSpinUp(); drawLeft(); tellSpeed();
+  showControls(); showNumbers(); drawBackbone(); drawOrbit(); drawSoftening(); markSpeed(); drawBeam(); showPhase(); drawSpinUp(); drawLeft(); tellSpeed(); showView(); drawTurning();
 }
 let waiting = false, changed = new Set(), spun = -1;
 /** Change the state; what depends on it is drawn once, in the next frame. */
@@ -73,6 +73,9 @@ function set(change) {
     if (any("w", "a")) drawBeam();
     if (any("t", "hide") || spun !== speed()) { drawSpinUp(); drawLeft(); }
     if (any("w", "t", "hide")) tellSpeed();
+    if (any("w", "t", "view")) showView();
+    if (any("w", "a")) drawTurning();
+    if (any("view")) drawAll();
     spun = speed();
     changed.clear();
     waiting = false;

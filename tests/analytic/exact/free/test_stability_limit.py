@@ -79,9 +79,9 @@ def test_the_pages_state_these_limits():
         known = [math.inf if cell == "none" else float(cell) for cell in stated]
         assert known == pytest.approx([LIMITS[float(omega), r] for r in ratios], rel=5e-3)
     assert len(rows) == 4
-    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    findings = " ".join((ROOT / "docs/findings.md").read_text(encoding="utf-8").split())
     low, high = (f"{LIMITS[omega, 18.5]:.3f}" for omega in (2.0, 8.0))
-    assert f"from {low} L at 2 rad/s and from {high} L at 8" in readme
+    assert f"from {low} L at 2 rad/s and from {high} L at 8" in findings
 
 
 @pytest.mark.slow
