@@ -210,11 +210,17 @@ class Blade(BladeData):
         return self._with_line(precone=angle)
 
     def with_prebend(self, curvature: Profile) -> Blade:
-        """Return the blade whose unloaded line is curved about the chord [1/m], flapwise."""
+        """Return the blade whose unloaded line is curved about the chord [1/m], flapwise.
+
+        Positive bends it down, away from the axis 3 along the thickness.
+        """
         return self._with_line(prebend=curvature)
 
     def with_sweep(self, curvature: Profile) -> Blade:
-        """Return the blade whose unloaded line is curved about the thickness [1/m], chordwise."""
+        """Return the blade whose unloaded line is curved about the thickness [1/m], chordwise.
+
+        Positive bends it forward, towards the axis 2 along the chord.
+        """
         return self._with_line(sweep=curvature)
 
     def with_kink(self, position: float, prebend: float = 0.0, sweep: float = 0.0) -> Blade:

@@ -192,21 +192,19 @@ def write_interactive(app: Any) -> None:
         return
     ending = "mp4" if FFMpegWriter.isAvailable() else "gif"
     rotbeam = [sys.executable, "-m", "rotbeam_exu.cli"]
-    for lines in (
-        ("explore --cache _build/runs --force --out _static/explorer.html",),  # takes all cores
-        (
-            f"animate --omega 6 --ramp-time 3 --force --out _static/figures/spin_up.{ending}",
-            "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
-            f"--out _static/figures/linear.{ending}",
-        ),
-    ):
-        jobs = [
-            subprocess.Popen([*rotbeam, *line.split()], cwd=HERE, stdout=subprocess.DEVNULL)
-            for line in lines
-        ]
-        for job in jobs:
-            if job.wait():
-                raise subprocess.CalledProcessError(job.returncode, job.args)
+    lines = (
+        "explore --force --out _static/explorer.html",
+        f"animate --omega 6 --ramp-time 3 --force --out _static/figures/spin_up.{ending}",
+        "animate --omega 4 --ramp-time 3 --duration 6 --beside linear --force "
+        f"--out _static/figures/linear.{ending}",
+    )
+    jobs = [
+        subprocess.Popen([*rotbeam, *line.split()], cwd=HERE, stdout=subprocess.DEVNULL)
+        for line in lines
+    ]
+    for job in jobs:
+        if job.wait():
+            raise subprocess.CalledProcessError(job.returncode, job.args)
 
 
 def put_mathjax(app: Any, error: Exception | None) -> None:

@@ -19,6 +19,7 @@ from rotbeam_exu.verification.submission_files.runs import FARTHEST
 from rotbeam_exu.verification.submission_files.tables import DIGITS
 
 SOURCE, PDF = Path(__file__).with_name("problem.typ"), STATIC / "PROBLEM.pdf"
+DRAWING = SOURCE.parents[1] / "docs" / "images" / "section.svg"
 DIGEST = Path(__file__).with_name("PROBLEM.sha256")
 """SHA-256 of the source and the numbers that the PDF was made from."""
 
@@ -79,15 +80,17 @@ def _besides(case: Case) -> list[str]:
 
 
 def problem_digest() -> str:
-    """Return the SHA-256 of the present source and numbers of the problem."""
-    return hashlib.sha256(SOURCE.read_bytes() + problem_numbers().encode()).hexdigest()
+    """Return the SHA-256 of the present source, drawing and numbers of the problem."""
+    made_of = SOURCE.read_bytes() + DRAWING.read_bytes() + problem_numbers().encode()
+    return hashlib.sha256(made_of).hexdigest()
 
 
 def typeset(**options: Any) -> Any:
     """Return the problem as the bytes of a PDF, or what `options` of typst.compile ask for."""
     import typst
 
-    return typst.compile(str(SOURCE), sys_inputs={"data": problem_numbers()}, **options)
+    root, numbers = str(SOURCE.parents[1]), {"data": problem_numbers()}
+    return typst.compile(str(SOURCE), root=root, sys_inputs=numbers, **options)
 
 
 if __name__ == "__main__":

@@ -124,7 +124,7 @@ def section() -> Figure:
     _arrow(ax, (0, 0), _turned((0.62, 0), twist), "2, to the\nleading edge", (24, 12))
     _arrow(ax, (0, 0), _turned((0, 0.42), twist), "3, thickness", (-32, 4))
     _axis(ax, (0, 0), "1, along the blade,\nto the reader", (62, -38))
-    _angle(ax, (0, 0), 0.52, 0, twist, "twist χ > 0", (34, 1), PURPLE)
+    _angle(ax, (0, 0), 0.52, 0, twist, "twist > 0", (34, 1), PURPLE)
     for place, text, color, at in (
         ((-0.24, 0.03), "center of mass", RED, (8, -44)),
         ((-0.14, 0.045), "tension center", GREEN, (-62, 8)),
@@ -216,7 +216,13 @@ def write() -> None:
         with mpl.rc_context(STYLE):
             figure = draw()
             place = HERE / f"{draw.__name__}.svg"
-            figure.savefig(place, metadata={"Date": None}, transparent=True)
+            figure.savefig(
+                place,
+                metadata={"Date": None},
+                transparent=True,
+                bbox_inches="tight",
+                pad_inches=0.03,
+            )
             plt.close(figure)
 
 

@@ -28,7 +28,7 @@ SHIPPED = "reference.json.xz"
 _STEP = 5e-5
 """Step to which positions are rounded, of the length: a hundredth of a pixel."""
 _FINE = 2.0**-23
-"""Step to which harmonics and amplitudes are rounded, as single precision is: they compress well."""
+"""Step to which harmonics and amplitudes are rounded, that of single precision near one."""
 _UNKNOWN = -32768
 """In their place where there are none."""
 

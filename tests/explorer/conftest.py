@@ -130,7 +130,8 @@ def page(wide_page):
 def turn_to(page, fragment):
     """Show what the page opened with this behind # shows."""
     page.evaluate(
-        "hash => { history.replaceState(null, '', '#view=expert&' + hash); restore(); drawAll(); }", fragment
+        "hash => { history.replaceState(null, '', '#view=expert&' + hash); restore(); drawAll(); }",
+        fragment,
     )
     settle(page)
 
