@@ -209,8 +209,12 @@ def test_the_strip_buckles_and_turns_behind_its_clamp(planar):
 
 def test_real_blade(run):
     found = run("real_blade")
-    (meeting,) = found["diagram"].crossings
-    modes = linear_modes(found["blade"], meeting.omega, 1)
+    meeting = found["diagram"].crossings[0]
+    modes = linear_modes(found["blade"], meeting.omega, 1, theory=found["without"])
+    # The circles of the second code lie on the curves.
+    for column, omega in enumerate(found["known"]):
+        at = linear_modes(found["blade"], omega, 6, theory=found["without"]).frequencies
+        assert at / (2.0 * np.pi) == pytest.approx(found["known"][omega], rel=8e-3), column
     assert meeting.omega == pytest.approx(1.5759, abs=1e-4)
     assert modes.frequencies[0] == pytest.approx(3.0 * meeting.omega, rel=1e-6)
     # It hardens, whatever the functions: 16 have -0.0898, too. Extension makes it -0.0877.
