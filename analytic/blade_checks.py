@@ -45,7 +45,7 @@ def _beyond(blade: Blade) -> str:
 def require_out_of_plane(
     blade: Blade, theory: Theory = BERNOULLI_EULER, *, torsion: bool = True
 ) -> Blade:
-    """Return the blade, refusing one whose section does not tell how it leaves its plane.
+    """Return the blade, refusing one whose section has no stiffness out of its plane.
 
     Its torsion is rigid where it is unknown and decides nothing.
     """

@@ -57,7 +57,7 @@ class BladeData(Described, abstract=True):
         offsets = (*self.line.mass_offset, *self.line.tension_offset)
         if self.table and any(offsets):
             raise ValueError(
-                "the stations tell where the centers are: leave with_offsets out, or give "
+                "the stations define where the centers are: leave with_offsets out, or give "
                 "from_stations the offsets tension, shear and center"
             )
         self._require_masses()

@@ -16,7 +16,7 @@ _KIND = "kind"
 
 
 class Described:
-    """A value that its kind and its fields tell; base of blades, motions, loads and elements.
+    """A value known by its kind and its fields; base of blades, motions, loads and elements.
 
     A class that others only build on is defined with ``abstract=True``.
 
@@ -69,7 +69,7 @@ def describe(value: object) -> dict[str, object]:
 
 
 def from_description(description: Mapping[str, object], family: type[ValueT]) -> ValueT:
-    """Return the value that `describe` told of; refuse one of no known kind of the family."""
+    """Return the value that `describe` described; refuse one of no known kind of the family."""
     kind = description.get(_KIND)
     cls = kinds_of(family).get(str(kind))
     if cls is None:

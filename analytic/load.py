@@ -21,7 +21,7 @@ class Load(Described, abstract=True):
     ----------
     unit, symbol, called : str
         Of the size: its unit in SI and the theory's letter; and the load in a sentence, by the name
-        of its class unless told, never by that of a base.
+        of its class unless given, never by that of a base.
     dimension : tuple of three int
         Powers of length, mass and time in the size.
     dimensions : mapping
@@ -92,7 +92,7 @@ class Load(Described, abstract=True):
 
     @property
     def leaves_plane(self) -> bool:
-        """Whether it moves the blade out of the plane of rotation: unless told, with a lift."""
+        """Whether it moves the blade out of the plane of rotation: unless stated, with a lift."""
         return type(self).lift is not Load.lift
 
     def lift(self, phase: FloatArray) -> FloatArray:
@@ -117,7 +117,7 @@ class Load(Described, abstract=True):
     def in_units(self, length: float, mass: float, time: float) -> Self:
         """Return the load in units of length [m], mass [kg] and time [s].
 
-        TypeError of a number whose dimension the class does not tell.
+        TypeError of a number whose dimension the class does not state.
         """
         known, scaled = {self._of_size(): self.dimension, **self.dimensions}, {}
         for name in (one.name for one in fields(self)):  # type: ignore[arg-type]

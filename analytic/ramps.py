@@ -1,4 +1,4 @@
-"""Smooth changes of the speed beside Eq. 1: Fourier series of the acceleration, and tables."""
+"""Smooth changes of the speed other than Eq. 1: Fourier series of the acceleration, and tables."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ class OutOfPlane(Described):
     """Stiffness and inertia of a slice out of the plane, over stiffness and inertia in it.
 
     The ratios hold all along the blade. Inertia against rotation has the same ratio r: against
-    twist it is 1 + r times the `rotary_inertia` of the section or, where none is told, of a
+    twist it is 1 + r times the `rotary_inertia` of the section or, where none is given, of a
     homogeneous one.
 
     Parameters
@@ -100,7 +100,7 @@ class Section(Described):
 
     @property
     def turns_with_inertia(self) -> bool:
-        """Whether slices have inertia against torsion: a told one that is not zero, or a usual."""
+        """Whether slices have inertia against torsion: a given one that is not zero, or a usual."""
         inertia = self.inertia_against_torsion
         return inertia is None or in_units(inertia, 1.0, 1.0) != 0.0
 
@@ -112,7 +112,7 @@ class Section(Described):
     @property
     def shear_stiffness(self) -> Profile:
         """GA in the plane of bending [N], refused: a share of EA is asked of the theory."""
-        raise TypeError("this section does not tell its shear stiffness")
+        raise TypeError("this section has no shear stiffness")
 
     def cuts(self, length: float) -> tuple[float, ...]:
         """Return where else than at stations of a profile slices change, over the length."""
@@ -125,7 +125,7 @@ class Section(Described):
         return True
 
     def needs_space(self, theory: Theory) -> bool:
-        """Whether the section tells more than the plane and small motion out of it take."""
+        """Whether the section has more than the plane and small motion out of it take."""
         del theory
         return False
 
@@ -145,7 +145,7 @@ class Section(Described):
             warn_if_giga("axial_stiffness", stiffness, "N", mass)
 
     def profiles(self) -> dict[str, Profile]:
-        """Return the profiles by name, but of a rotary inertia that is not told."""
+        """Return the profiles by name, but of a rotary inertia that is not given."""
         profiles = {
             "axial_stiffness": self.axial_stiffness,
             "bending_stiffness": self.bending_stiffness,

@@ -1,4 +1,4 @@
-"""The shape of a section, which tells how a blade of its A and I bends and twists out of its plane.
+"""The shape of a section, from which follows how a blade bends and twists out of its plane.
 
 A new shape is a frozen dataclass that inherits from `SectionShape`, with fields whose types say
 what they are: `Length`, `Ratio` or `Count`.
@@ -128,7 +128,7 @@ class SectionShape(Described, ABC, abstract=True):
         Raises
         ------
         ValueError
-            If the shape does not tell all its lengths.
+            If the shape does not determine all its lengths.
         """
         E, rho = (
             positive("youngs_modulus", youngs_modulus, "Pa"),

@@ -77,7 +77,7 @@ class Rectangle(_TwoSided):
     ratio : float, optional
         Height over width, in place of the width.
     poisson_ratio : float
-        ν, which tells the shear modulus.
+        ν, for the shear modulus.
 
     Examples
     --------
@@ -138,7 +138,7 @@ class Tube(SectionShape):
     radius, wall : float, optional
         Mean radius and thickness of the wall [m]; by default they give the beam's A and I.
     poisson_ratio : float
-        ν, which tells the shear modulus.
+        ν, for the shear modulus.
     """
 
     radius: Length | None = None
@@ -197,7 +197,7 @@ class Box(SectionShape):
     height, width, wall : float
         Outside, in the plane of bending and across it, and thickness of the walls [m].
     poisson_ratio : float
-        ν, which tells the shear modulus.
+        ν, for the shear modulus.
 
     Examples
     --------

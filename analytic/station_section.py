@@ -164,7 +164,7 @@ class StationSection(Section):
 
     @property
     def knows_space(self) -> bool:
-        """True: the matrices tell it."""
+        """True: the matrices contain it."""
         return True
 
     def __post_init__(self) -> None:
@@ -228,7 +228,7 @@ class StationSection(Section):
         return not any(self.couples(one, other) for one, other in others)
 
     def needs_space(self, theory: Theory) -> bool:
-        """Whether shear, or flap that twists, is told beyond what the Hill equation takes."""
+        """Whether shear, or flap that twists, is given beyond what the Hill equation takes."""
         sheared = theory.shear is not None and not theory.engesser
         return sheared or self.couples((3,), (2, 4)) or self.couples((2,), (4,))
 
@@ -272,12 +272,12 @@ class StationSection(Section):
     def tapered(self, width: float, height: float) -> Never:
         """Refuse a taper."""
         del width, height
-        raise ValueError("the stations tell how the section varies: scale their values")
+        raise ValueError("the stations define how the section varies: scale their values")
 
     def with_out_of_plane(self, out_of_plane: OutOfPlane | None) -> Never:
-        """Refuse ratios, which the matrices tell."""
+        """Refuse ratios, which the matrices contain."""
         del out_of_plane
-        raise ValueError("the stations tell the section out of the plane: change their values")
+        raise ValueError("the stations define the section out of the plane: change their values")
 
 
 def nested(matrices: FloatArray) -> Any:
@@ -313,7 +313,7 @@ def _require_stiffness(x: float, stiffness: FloatArray) -> None:
     if least < _POSITIVE:
         raise ValueError(
             f"stiffness at x = {x:g} m is not positive definite: over its diagonal its least "
-            f"eigenvalue is {least:.3g}; lower the entries beside the diagonal"
+            f"eigenvalue is {least:.3g}; lower the entries off the diagonal"
         )
 
 
@@ -325,7 +325,7 @@ def _require_mass(x: float, mass: FloatArray) -> None:
     if np.any(off > _EVEN * np.repeat([m, np.abs(carried).max()], 3)[:, None]):
         raise ValueError(
             f"mass at x = {x:g} m is not that of a rigid section: {off.max():.3g} too much in an "
-            "entry; give m on the first three of the diagonal, zero between, and m c × beside"
+            "entry; give m on the first three of the diagonal, zero between, m c × off the diagonal"
         )
     about = mass[3:, 3:] + carried @ carried / m
     least = float(np.linalg.eigvalsh(about)[0])

@@ -12,7 +12,7 @@ from .input_checks import flag, positive, shown
 
 @dataclass(frozen=True, kw_only=True)
 class Theory:
-    """Theory of the beam: Bernoulli and Euler's with extension, unless told otherwise.
+    """Theory of the beam: Bernoulli and Euler's with extension, unless stated otherwise.
 
     Parameters
     ----------
@@ -20,14 +20,14 @@ class Theory:
         Whether the axis stretches; False is the limit of the slenderness μ → 0.
     shear : float or bool, optional
         Shear stiffness over axial stiffness, k_s GA/(EA) = k_s/(2 (1 + ν)), the same all along the
-        blade, of Reissner's beam. True takes that of a blade from stations, which tell it. None or
+        blade, of Reissner's beam. True takes that of a blade from stations, which have it. None or
         False of a beam whose slices stay normal to the axis.
     engesser : bool
         Whether the tension acts along the slope of the axis, Engesser's law, not along the normal
         of the section, Reissner's; of a beam that shears, in the plane.
     rotary_inertia : bool
         Whether slices have inertia against rotation about all axes: that of a homogeneous section,
-        ρI = m EI/EA, unless the section tells its own. What it tells is there in any case. Without
+        ρI = m EI/EA, unless the section has its own. What it has counts in any case. Without
         it they have inertia against torsion, but none against the rates of bending.
     trapeze : bool or "elastic"
         Whether twist shortens the axis, the trapeze effect, and slices without rotary inertia
@@ -98,7 +98,7 @@ class Theory:
 
 
 BERNOULLI_EULER = Theory()
-"""The beam that stretches, does not shear, and has no rotary inertia but what its section tells."""
+"""The beam that stretches, does not shear, and has no rotary inertia but that of its section."""
 
 
 def require_theory(theory: object) -> Theory:

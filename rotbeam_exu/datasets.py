@@ -106,8 +106,8 @@ def _require_together(first: xr.Dataset, other: xr.Dataset) -> None:
 def frames_of(*results: object) -> dict[str, Any]:
     """Return results as tidy DataFrames of pandas, one for each set of dims, by its first column.
 
-    Dims are columns, named beside the numbers; `DataFrame.attrs` has units. What has no dims is one
-    row.
+    Dims are columns, named next to the numbers; `DataFrame.attrs` has units. What has no dims is
+    one row.
 
     Examples
     --------

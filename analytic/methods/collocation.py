@@ -2,7 +2,7 @@
 
 Radau IIA is stiffly accurate and L-stable. Axial and high bending waves far faster than the step,
 which carry almost no energy, are damped away; slower motion is integrated to the order 2s - 1.
-Gauss's points, of order 2s, damp nothing: they tell whether a motion grows.
+Gauss's points, of order 2s, damp nothing: they show whether a motion grows.
 """
 
 from __future__ import annotations

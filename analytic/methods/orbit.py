@@ -1,4 +1,4 @@
-"""A periodic orbit, free or driven: its Fourier series, its peak, and all that it tells."""
+"""A periodic orbit, free or driven: its Fourier series, its peak, and its values."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ class Orbit(Generic[S]):
         return q, self.frequency * slope, self.frequency**2 * bend
 
     def drive(self, phase: FloatArray) -> tuple[()] | tuple[FloatArray, float]:
-        """Return the arguments of a driven system beside its state."""
+        """Return the arguments of a driven system besides its state."""
         return (phase, self.frequency) if self.system.driven else ()
 
     def tangent(self, phase: FloatArray) -> Tangent:

@@ -1,6 +1,6 @@
 """The blade that is linear in the wrong place: small deflections in the frame of the clamp.
 
-Nothing in the stiffness K of a linear floating frame knows of the pull of the rotation, so that
+Nothing in the stiffness K of a linear floating frame knows of the tension by rotation, so that
 
     M q̈ + (K - c²θ̇² M) q = -cΓ θ̈,      Γ = ∫(R + x) φ dm,
 

@@ -51,7 +51,7 @@ class TableRow:
 
 @dataclass(frozen=True, kw_only=True)
 class PaperTable:
-    """One of the paper's tables beside its derivation."""
+    """One of the paper's tables next to its derivation."""
 
     number: int
     title: str

@@ -43,7 +43,7 @@ class Fit:
     values : ndarray (parameters,)
         After; of a factor for all the blade over the blade before.
     covariance : ndarray (parameters, parameters)
-        Of the values, infinite where neither data nor priors tell them.
+        Of the values, infinite where neither data nor priors determine them.
     measured : tuple of Measured
     computed : ndarray (measured,)
         What the blade has for them.
@@ -54,7 +54,7 @@ class Fit:
         about 1 where the deviations are right, more where the blade cannot do what was measured. Of
         data without deviations it is relative, as 0.01; not a number without a degree of freedom.
     unknown : tuple of str
-        Sentences on what the data do not tell.
+        Sentences on what the data do not determine.
     """
 
     blade: Blade
@@ -101,7 +101,7 @@ def fit(
 ) -> Fit:
     """Return the blade near another that fits what was measured, by weighted least squares.
 
-    What neither data nor priors tell stays near the blade before.
+    What neither data nor priors determine stays near the blade before.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def fit(
     ... ]
     >>> found = fit(beam, measured, ["EI3", "m"])
     >>> print(found.unknown[0])
-    EI3 +1 % with m +1 %: the data do not tell; they know their ratio alone
+    EI3 +1 % with m +1 %: the data do not determine; they determine their ratio alone
     """
     require_blade(blade)
     several = _measured(measured)
@@ -213,7 +213,7 @@ class _Problem:
         return self._known[z.tobytes()]
 
     def solved(self, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Return the changes of least squares; what is left open stays near the start."""
+        """Return the changes of least squares; what the data leave open stays near the start."""
         held = _HELD * np.eye(low.size)
 
         def residuals(z: FloatArray) -> FloatArray:
@@ -248,7 +248,7 @@ class _Problem:
         return np.concatenate((self._answers(z)[1] / self._deviations[:, None], self._prior))
 
     def fitted(self, z: FloatArray, low: FloatArray, high: FloatArray) -> Fit:
-        """Return the fit, with what the data tell of it."""
+        """Return the fit, with what the data determine of it."""
         computed, _ = self._answers(z)
         residuals, slopes = self._residuals(z), self._slopes(z)
         misfit = self._misfit(z)
@@ -294,7 +294,7 @@ def _covariance(slopes: FloatArray, unit: float) -> tuple[FloatArray, FloatArray
 
 
 def _sentence(way: FloatArray, parameters: Sequence[Parameter], values: FloatArray) -> str:
-    """Return a direction that data do not tell, in words; in percent of the values after."""
+    """Return a direction that data do not determine, in words; in percent of the values after."""
     scaled = [one.unit not in ("m", "rad") for one in parameters]
     sizes = np.array([one.size for one in parameters])
     way = way * np.where(scaled, sizes / np.where(scaled, values, 1.0), 1.0)
@@ -303,12 +303,12 @@ def _sentence(way: FloatArray, parameters: Sequence[Parameter], values: FloatArr
     changes = [
         f"{parameters[k].name} {parameters[k].changed_by(float(way[k]))}" for k in sorted(named)
     ]
-    sentence = f"{' with '.join(changes)}: the data do not tell"
+    sentence = f"{' with '.join(changes)}: the data do not determine"
     both = [way[k] for k in named]
     alike = len(both) == 2 and all(parameters[k].unit == "1" for k in named)
     if alike and abs(abs(both[1]) - 1.0) < 0.05:
         kind = "ratio" if both[1] > 0.0 else "product"
-        sentence += f"; they know their {kind} alone"
+        sentence += f"; they determine their {kind} alone"
     return sentence
 
 
@@ -328,7 +328,7 @@ def _measured(measured: Iterable[Measured]) -> tuple[Measured, ...]:
         )
     zero = [one.label for one in several if one.value == 0.0]
     if without and zero:
-        raise ValueError(f"{zero[0]} is zero: give deviations, as parts of it tell nothing")
+        raise ValueError(f"{zero[0]} is zero: give deviations, as parts of it have no size")
     return several
 
 

@@ -1,1 +1,1 @@
-"""Changes of the speed that leave nothing: the residual in closed form, and what makes it small."""
+"""Changes of the speed without residual vibration: closed form, and ramps that make it small."""

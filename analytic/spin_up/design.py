@@ -153,7 +153,7 @@ def design_ramp(
     """Return a smooth change of the speed that leaves the first modes at rest.
 
     Its acceleration is a Fourier series of `modes` (1 + `robust`) + 8 waves. Among the ramps
-    within the limits that leave nothing by the closed form (`residual_amplitude`), it is the
+    within the limits without residual by the closed form (`residual_amplitude`), it is the
     closest to Eq. 1. The amplitude that the exact transient leaves becomes the next target of the
     closed form, with its sign changed, until each mode keeps less than 1e-6 L. During the ramp the
     blade swings, in short ramps as far as without a design. The design depends on the blade: in 2 s
@@ -174,7 +174,7 @@ def design_ramp(
     acceleration_limit : float, optional
         Largest |θ̈| [rad/s²]; none if not given. That of Eq. 1 is 2(ω - ω_start)/T.
     robust : int
-        Derivatives of what is left to the blade's frequency that vanish, 0 to 2, as differences
+        Derivatives of the residual by the blade's frequency that vanish, 0 to 2, as differences
         over ±1 %: an error ε of the frequency leaves a multiple of ε^(robust + 1), beyond 1 % if 2.
     largest : float, optional
         Largest |q|/L on the way by the exact transient; none if not given.
@@ -220,7 +220,7 @@ def design_ramp(
 
 
 def _corrected(task: _Task) -> FourierRamp:
-    """Return the ramp after which the exact transient leaves nothing."""
+    """Return the ramp after which the exact transient has no residual."""
     target, y, aim = np.zeros_like(task.closed_form(task.eq_1)), task.eq_1, task
     # Broyden's method, from a Jacobian of one: the closed form misses by the same all around.
     inverse, last = np.eye(2 * target.size), None

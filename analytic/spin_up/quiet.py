@@ -1,4 +1,4 @@
-"""The ramp times of Eq. 1 that leave almost nothing, refined on the exact transient."""
+"""The ramp times of Eq. 1 with almost no residual vibration, refined on the exact transient."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def quiet_ramp_times(
     require_planar(blade)
     omega, period = rotation_speed(omega), 2.0 * math.pi / blade.omega_0
     if omega == 0.0:
-        raise ValueError("omega = 0 rad/s leaves nothing at any ramp time: take a speed above zero")
+        raise ValueError("omega = 0 rad/s has no residual at any ramp time: take a higher speed")
     longest = _PERIODS * period if longest is None else positive("longest", longest, "s")
     unit = SpinUp(omega=omega, ramp_time=longest)
     modes = modes_for(blade, unit, 1)

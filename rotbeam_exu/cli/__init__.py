@@ -111,7 +111,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 @contextmanager
 def _ctrl_c_noted() -> Iterator[list[int]]:
-    """Give a list that Ctrl-C joins: Exudyn tells it as a failed import, or an error of its own."""
+    """Give a list that Ctrl-C joins: Exudyn reports a failed import, or an error of its own."""
     met: list[int] = []
 
     def note(number: int, _: object) -> None:

@@ -55,8 +55,8 @@ def animate(
     rate
         Frames per second of the film.
     beside
-        Show the linear model in a floating frame beside the exact beam: it diverges above the first
-        natural frequency at rest.
+        Show the linear model in a floating frame next to the exact beam: it diverges above the
+        first natural frequency at rest.
     run
         Show a finite element run instead of the exact beam: the file of `rotbeam run --stations`.
     mode

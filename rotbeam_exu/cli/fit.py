@@ -30,7 +30,7 @@ def fit(
     """Print the numbers of a blade that fit what was measured.
 
     Least squares with the derivatives of the exact blade, from the blade of the file. Says, too,
-    what the data do not tell.
+    what the data do not determine.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ class Results:
         draw
             Drawing of the Dataset by `figures`, which is handed over.
         caption
-            Words about the figure, for a file of text beside it.
+            Words about the figure, for a file of text next to it.
         """
         from ..datasets import dataset_of
 
@@ -121,7 +121,7 @@ class Results:
         return shown
 
     def tables(self, name: str, data: xr.Dataset) -> list[Path]:
-        """Write a result as CSV alone, beside a page that shows it; return the files."""
+        """Write a result as CSV alone, next to a page that shows it; return the files."""
         target = Path(f"{self.out / name}.csv")
         refuse_to_replace(data, target.with_suffix(".json"), force=self.force)
         return save_tables(data, target)

@@ -1,4 +1,4 @@
-"""`rotbeam kit` and `rotbeam judge`: the benchmark, and judgements on codes."""
+"""`rotbeam kit` and `rotbeam judge`: the benchmark, and judgments on codes."""
 
 from __future__ import annotations
 

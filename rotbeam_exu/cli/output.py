@@ -118,7 +118,7 @@ def print_note(text: str) -> None:
 
 
 def print_line(title: str, text: str) -> None:
-    """Print a title and its text beside it."""
+    """Print a title and its text."""
     print_text(f"{title:<22}{text}")
 
 

@@ -12,7 +12,7 @@ def report(request: Request, *, results: Results = Results()) -> None:
     """Write a blade's report: a page to print, and CSV tables.
 
     Sections and mass, modes with names and shapes, Campbell diagram, steady state over the speed,
-    root loads over a turn under the weight. What has no answer is told there.
+    root loads over a turn under the weight. What has no answer is stated there.
 
     Examples
     --------

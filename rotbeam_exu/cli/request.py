@@ -172,7 +172,7 @@ def _option(name: str, kind: Any) -> inspect.Parameter:
 
 
 def _config(tables: Iterable[str]) -> inspect.Parameter:
-    """Return the parameter of the file, which tells the tables of a run that it may have."""
+    """Return the parameter of the file, with the tables of a run that it may have."""
     titles = ", ".join(f"[[{one}]]" if one == "loads" else f"[{one}]" for one in tables)
     more = f", optionally {titles}; options given here replace its values" if titles else ""
     alone = "Or a blade alone: BeamDyn's primary file, HAWC2's .htc, a CSV of stations."

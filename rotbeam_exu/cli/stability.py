@@ -48,7 +48,7 @@ def stability(
     mode
         Mode of lag from which the orbits grow, as "lag 1".
     damping_ratio
-        Damping ratio of all modes of flap and torsion, beside the damping of the file's blade.
+        Damping ratio of all modes of flap and torsion, besides the damping of the file's blade.
 
     Examples
     --------

@@ -145,7 +145,7 @@ def softening_map(blade: Blade | None = None) -> xr.Dataset:
     """Return λ_ω of FrM and ω_2/ω_n of a blade on hubs of many radii, at many speeds.
 
     Inextensible, by the closed form of `analytic.reduced.any_blade`. Near whole numbers of ω_2/ω_n
-    an internal resonance bends the backbone, and λ_ω tells of the smallest amplitudes only.
+    an internal resonance bends the backbone, and λ_ω is that of the smallest amplitudes only.
 
     Parameters
     ----------

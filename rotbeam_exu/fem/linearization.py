@@ -210,7 +210,7 @@ def natural_frequencies(
     ValueError
         If an input is refused, or the mesh has fewer than `count` modes.
     SimulationError
-        If the static equilibrium is not found, or unstable: frequencies would not tell.
+        If the static equilibrium is not found, or unstable: frequencies would mean nothing.
 
     Examples
     --------

@@ -22,7 +22,7 @@ _SHORT = 1e-3  # of the length: of stations that are closer one gets a node
 class Sections:
     """Sections of elements, (elements,), or at points of them: m [kg/m], EI [N m²], EA [N], ρI.
 
-    ρI [kg m] is for elements that model it; where the blade tells none, that of a homogeneous
+    ρI [kg m] is for elements that model it; where the blade has none, that of a homogeneous
     section, m EI/EA.
     """
 

@@ -1,4 +1,4 @@
-"""The spinning beam as a moving picture: in two frames, or beside the linear model."""
+"""The spinning beam as a moving picture: in two frames, or next to the linear model."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def animate(
     time = main.time
     if other and not (np.array_equal(other.time, time) and other.motion == main.motion):
         raise ValueError(
-            "what is shown beside a spin-up must be of the same motion at the same times: give "
+            "what is shown next to a spin-up must be of the same motion at the same times: give "
             "linear_response what spin_up_response was given"
         )
     (scale, prefix), faster = prefix_of(time[-1]), prefix_of(main.motion.fastest)

@@ -55,7 +55,7 @@ def figure_5(data: xr.Dataset, ax: Axes | None = None) -> Axes:
 
 
 def _points(ax: Axes, data: xr.Dataset, **look: Any) -> None:
-    """Draw the finite element points with their bars."""
+    """Draw the finite element points with their error bars."""
     x, y, dx, dy = (data[k] for k in ("ratio", "amplitude", "ratio_error", "amplitude_error"))
     ax.errorbar(x, y, xerr=dx, yerr=dy, ls="none", **look)
 

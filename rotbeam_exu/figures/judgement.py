@@ -140,7 +140,7 @@ def _draw_errors(
     *,
     in_step: bool = False,
 ) -> None:
-    """Draw the errors of meshes or steps with the limit's bar, and the declared order above."""
+    """Draw the errors of meshes or steps, the limit's error bar, and the declared order above."""
     top, places = 0.0, np.empty(0)
     scale = 1e3 if next(iter(convergences.values())).refined == "step" else 1.0
     for (quantity, runs), color, marker in zip(

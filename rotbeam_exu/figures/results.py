@@ -180,7 +180,7 @@ def growth_out_of_plane(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     """Draw where planar orbits leave their plane, over speed and amplitude; white stays in it.
 
     The line is where growth begins: the limit, and below it the tongues. It is smooth with damping,
-    where what is stable decays. Grey is where no orbit was found.
+    where what is stable decays. Gray is where no orbit was found.
     """
     omega, a, rate = data["omega"].to_numpy(), data["a"].to_numpy(), data["growth_rate"].to_numpy()
     with house_axes(ax, column(), 3.2) as axes:

@@ -1,4 +1,4 @@
-"""Style of the figures: sizes for a journal's column, and colors that all readers can tell."""
+"""Style of the figures: sizes for a journal's column, and colors for all readers."""
 
 from __future__ import annotations
 

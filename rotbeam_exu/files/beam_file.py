@@ -58,7 +58,7 @@ def load_beam(path: str | os.PathLike[str]) -> Blade:
     it is not given.
 
     Such a `file`, which may be read alone too, is a CSV as `blade_of_csv` reads, BeamDyn's primary
-    file, HAWC2's .htc or _st, or, with length, axial_stiffness and torsion_stiffness beside it, a
+    file, HAWC2's .htc or _st, or, with length, axial_stiffness and torsion_stiffness besides, a
     blade file of ElastoDyn.
 
     Raises

@@ -122,7 +122,7 @@ _TELLING_ITS_KIND = Table({"kind": str}, {})
 
 
 def schema() -> dict[str, object]:
-    """Return the JSON schema of a beam file, which the loader's own tables tell."""
+    """Return the JSON schema of a beam file, from the loader's own tables."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A beam or blade of rotbeam, and a run",
@@ -177,6 +177,6 @@ def _schema_of(content: object) -> dict[str, object]:
 
 
 def _with_kind(cls: type[object]) -> Table:
-    """Return the keys of a table that tells its kind."""
+    """Return the keys of a table that names its kind."""
     keys = table_of(cls)
     return Table({"kind": Literal[cls.__name__], **keys.required}, keys.optional)

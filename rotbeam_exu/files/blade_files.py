@@ -45,11 +45,11 @@ def reader_of(path: Path) -> Callable[..., Blade] | None:
 
 
 def blade_of_file(path: Path, given: dict[str, Any]) -> Blade:
-    """Return the blade of a file that [blade.stations] names, with what is `given` beside it."""
+    """Return the blade of a file that [blade.stations] names, with what is `given` besides."""
     reader = reader_of(path) or blade_of_csv
     if given and reader is not blade_of_elastodyn:
         raise ValueError(
-            f"{', '.join(given)} beside file are for a blade file of ElastoDyn, and {path} has "
+            f"{', '.join(given)} next to file are for a blade file of ElastoDyn, and {path} has "
             "them itself: leave them out"
         )
     return blade_by(reader, path, given)

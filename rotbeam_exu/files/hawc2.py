@@ -86,7 +86,7 @@ def blade_of_st(path: Path) -> Blade:
             f"{path} has {len(numbers)} sets, of bodies that the main file names: give that, .htc"
         )
     table = _table(text, numbers[0], 1)
-    warn(f"{path} tells no twist and no line: give the main file, .htc, which has them in c2_def")
+    warn(f"{path} has no twist and no line: give the main file, .htc, which has them in c2_def")
     return _of_table(table, path, float(table[-1, 0]))
 
 

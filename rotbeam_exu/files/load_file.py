@@ -1,4 +1,4 @@
-"""Loads of files: a table over time and span from a CSV, and those that tell their kind."""
+"""Loads of files: a table over time and span from a CSV, and those that name their kind."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def load_table(path: Path, **more: Any) -> LoadTable:
 
 
 def load_of(told: Mapping[str, Any], folder: Path) -> Load:
-    """Return the load that a table of a file tells; its `file` is in the folder or one within."""
+    """Return the load of a file's table; its `file` is in the folder or one within."""
     if told.get("kind") != LoadTable.__name__ or "file" not in told:
         return from_description(told, Load)
     more = {name: value for name, value in told.items() if name not in ("kind", "file")}

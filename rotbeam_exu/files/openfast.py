@@ -207,7 +207,7 @@ def write_beamdyn(blade: Blade, path: Path) -> list[Path]:
 
 
 def blade_file_of(path: Path) -> Path:
-    """Return the path of the blade file that `write_beamdyn` writes beside a primary file."""
+    """Return the path of the blade file that `write_beamdyn` writes next to a primary file."""
     return path.with_name(f"{path.stem}_Blade{path.suffix}")
 
 

@@ -82,7 +82,7 @@ def blade_of_csv(path: Path) -> Blade:
 def _planar(columns: dict[str, FloatArray], path: Path) -> Blade:
     if more := sorted(columns.keys() - {"x", "EA", "EI", "m"}):
         raise ValueError(
-            f"{path} has EI, of the plane, beside {', '.join(more)} in space: give EI2 and EI3"
+            f"{path} has EI, of the plane, and {', '.join(more)} in space: give EI2 and EI3"
         )
     x = columns["x"].tolist()
     named = {"axial_stiffness": "EA", "bending_stiffness": "EI", "mass_per_length": "m"}

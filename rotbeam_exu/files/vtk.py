@@ -32,7 +32,7 @@ def save_vtk(
     points: ArrayLike | None = None,
     youngs_modulus: ArrayLike | None = None,
 ) -> Path:
-    """Write a blade over time as `path`, .pvd, and one .vtu for each time in a folder beside it.
+    """Write a blade over time as `path`, .pvd, and one .vtu for each time in a folder next to it.
 
     Seen from outside, where `data` has the angle of the clamp. Points have the station [m], the
     axes of its section (normal, chord, thickness), `force` [N] and `moment` [N m] by these axes,
@@ -85,7 +85,7 @@ def save_vtk(
     if points is None:
         offsets = corners(blade, at, height, width)
     elif height is not None or width is not None:
-        raise ValueError("points, or height and width, tell the section: leave one out")
+        raise ValueError("points, or height and width, define the section: leave one out")
     elif (offsets := offsets_of(blade, at, points)).shape[1] < 3:
         raise ValueError("the surface of a blade needs three points of each section, or more")
     if youngs_modulus is None and isinstance(blade, Beam):

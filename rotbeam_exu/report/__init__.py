@@ -1,1 +1,1 @@
-"""A judgement as one HTML page and as a JSON document."""
+"""A judgment as one HTML page and as a JSON document."""

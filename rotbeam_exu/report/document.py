@@ -1,4 +1,4 @@
-"""A judgement as a JSON document; docs/howto/judge_report.md says what each key means."""
+"""A judgment as a JSON document; docs/howto/judge_report.md says what each key means."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def versions() -> dict[str, str]:
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
 class Record:
-    """A judgement with all that a reader needs to repeat it.
+    """A judgment with all that a reader needs to repeat it.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Record:
     faults : tuple of Fault
         Of files that are not judged.
     date : datetime
-        Of the judgement.
+        Of the judgment.
     """
 
     submission: Submission

@@ -55,7 +55,7 @@ def start_attributes(start: object) -> dict[str, object]:
 def theory_attributes(theory: Theory) -> dict[str, object]:
     """Return the attributes by which an answer says where its theory is not Bernoulli and Euler's.
 
-    Numbers, for files hold no truth values: a shear of 1 is that of the stations.
+    Numbers, for files hold no booleans: a shear of 1 is that of the stations.
     """
     values = asdict(theory).items()
     return {
@@ -86,7 +86,7 @@ def motion_of(attrs: Attributes) -> Motion:
 def motion_attributes(motion: Motion) -> dict[str, object]:
     """Return the attribute by which a run says how it was driven; `motion_of` reads it.
 
-    Eq. 1 and a steady rotation need none beside omega and ramp_time. A rotation that is no known
+    Eq. 1 and a steady rotation need none besides omega and ramp_time. A rotation that is no known
     kind is refused.
     """
     if type(motion) in (SpinUp, SteadyRotation):

@@ -73,7 +73,7 @@ def sweep(
     cache : path, optional
         Folder with one file per finished case. A sweep that was stopped, however, resumes from it.
         Results found there were made by the same code: this project's and the element's, which is
-        its package, or its module and those beside it.
+        its package, or its module and those next to it.
     progress : callable, optional
         Called with the cases done and their number.
     on_error : {"raise", "record"}

@@ -118,7 +118,7 @@ class Assessment:
         return f"equations solved; {why}, {100.0 * error:+.2g} %"
 
     def _share(self, error: float) -> str:
-        """Return how large an error is beside the nonlinear effect."""
+        """Return how large an error is compared with the nonlinear effect."""
         share = abs(error / self.effect) if self.effect else math.inf
         return f"{share:.1%} of" if share < 1.0 else f"{share:.3g} times"
 

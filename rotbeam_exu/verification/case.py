@@ -85,7 +85,7 @@ class Case:
     columns : tuple of str
         Columns of its histories besides the time.
     sizes : tuple of float
-        Units of the tip beside which errors are small: lengths, and one radian.
+        Units of the tip, to which errors are small: lengths, and one radian.
     is_quick : bool
         Whether theory answers in a second or two, so that mistakes are planted into it.
     slips : dict

@@ -1,4 +1,4 @@
-"""One fit to all runs of a submission: the limit of a number or a history, its bar, the orders.
+"""One fit to all runs of a submission: the limit of a number or a history, and the orders.
 
 Meshes at one step, steps on one mesh, diagonals and whole grids are all of use, and a declared
 order counts for as much as runs leave open; `error_models` says how.
@@ -33,12 +33,12 @@ LEAST_SHARE = 0.7
 
 @dataclass(frozen=True, kw_only=True)
 class Order:
-    """An observed order beside the declared one. It decides nothing: a code is judged by its limit.
+    """An observed order and the declared one. Neither decides: a code is judged by its limit.
 
     Attributes
     ----------
     value, bar : float
-        And its standard deviation; NaN where the runs do not tell it.
+        And its standard deviation; NaN where the runs do not determine it.
     declared : float or None
     why : str
         Why it is not measured; "exponential" of errors that fall faster than any power.
@@ -81,7 +81,7 @@ class Convergence:
     elements, steps : ndarray (runs,)
         The finest mesh last, on it the smallest step; steps are zero where there are none.
     values, noise : ndarray (runs,)
-        The number found, and the bar of what measured it; of histories the largest size.
+        The number found, and the uncertainty of what measured it; of histories the largest size.
     errors, in_mesh, in_step : ndarray (runs,)
         Value less limit, and the parts that mesh and step have in it; of histories the largest.
     limit, bar : float
@@ -121,7 +121,7 @@ def converged(
     declared: Declared = (None, None),
     refined: str = "step",
 ) -> Convergence:
-    """Fit all runs of one quantity, and return its limit with a bar that covers.
+    """Fit all runs of one quantity, and return its limit with an uncertainty that covers.
 
     Parameters
     ----------
@@ -204,7 +204,7 @@ def _orders(
         free = evidence + np.log(shares(grids, None) / shares(grids, stated))[place]
         share = np.exp(free - free.max())
         bar = math.sqrt(float(share @ (grid - value) ** 2 / share.sum()))
-        why = "" if bar <= _TELLING * value else "the runs do not tell it"
+        why = "" if bar <= _TELLING * value else "the runs do not determine it"
         if not visible:
             why = "the changes are below the floor"
         if name == "mesh" and visible and value > max(_STEEPEST, stated or 0.0):

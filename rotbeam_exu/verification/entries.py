@@ -31,7 +31,7 @@ _SECOND = 2.0
 def formulation_entry(model: Formulation, elements: int | None = None, step: float = 1e-3) -> Entry:
     """Return the entry of one of our formulations, named with the options that are not default.
 
-    Of second order it has twice as many elements as of fourth, unless told; the paper's element
+    Of second order it has twice as many elements as of fourth, unless given; the paper's element
     goes on to 64.
 
     Examples

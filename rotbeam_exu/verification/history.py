@@ -259,7 +259,7 @@ def free_frequency(case: Case, elements: int, speed: float, time: FloatArray, q:
 
 
 def mending(linear: Convergence | None) -> tuple[float, float]:
-    """Return how far a code's own ω_n is off, and its bar; nothing where it is not known to be."""
+    """Return the error of a code's own ω_n and its uncertainty; nothing where it is not known."""
     if linear is None or not linear.bar < abs(linear.limit):
         return 0.0, 0.0
     return linear.limit, linear.bar
@@ -283,7 +283,7 @@ def judged_apart(runs: Sequence[Run], truth: Reference) -> tuple[list[Run], list
 
 
 def _reason(run: Run, kept: Sequence[Run], truth: Reference) -> str:
-    """Return why a run is not judged beside those kept; nothing of one that is."""
+    """Return why a run is not judged with those kept; nothing of one that is."""
     if run.failure:
         return f"failed, {run.failure}"
     if any(one.fineness == run.fineness for one in kept):

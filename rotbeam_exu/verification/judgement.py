@@ -1,4 +1,4 @@
-"""The judgement of a submission by stated thresholds, per case and quantity."""
+"""The judgment of a submission by stated thresholds, per case and quantity."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ class Judgement:
     def outcome(self) -> str:
         """One line: of all cases how many agree, and which are undecided or differ.
 
-        An undecided nonlinear shift, the harder demand, is told behind the cases.
+        An undecided nonlinear shift, the harder demand, is stated behind the cases.
         """
         by_outcome: dict[bool | None, list[str]] = {True: [], None: [], False: []}
         shifts = []
@@ -169,7 +169,7 @@ def judged(
     -------
     Judgement
         If the reference or the estimator fails, the outcome is "undecided", and the note of the
-        finding says why. A run that failed is told and not judged.
+        finding says why. A run that failed is reported and not judged.
 
     Examples
     --------

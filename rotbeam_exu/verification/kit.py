@@ -199,7 +199,7 @@ def row_of(case: Case) -> dict[str, Any]:
         has = getattr(blade if hasattr(blade, name) else case, name)
         if has != read:
             raise ValueError(
-                f"case {case.name} has {name} = {has!r}, of which cases.csv would tell {read!r}: "
+                f"case {case.name} has {name} = {has!r}, of which cases.csv would have {read!r}: "
                 "name what is missing in row_of, _read_back and UNITS"
             )
     return row

@@ -1,4 +1,4 @@
-"""Outcomes of the judgement of a code: where its runs tend to, or what would decide it."""
+"""Outcomes of the judgment of a code: where its runs tend to, or what would decide it."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def finding_of(
 ) -> Finding:
     """Return the finding of relative differences to a reference that is known within `bound`.
 
-    The uncertainty d is the bar of the limit plus the bound. A code is right if its limit is within
+    The uncertainty d is that of the limit plus the bound. A code is right if its limit is within
     tolerance - d: it converges to the reference if the limit is zero within d, else it agrees. It
     differs if the limit is beyond tolerance + d, and does not converge if changes grow twice, or
     once where the finest run is FAR off. In between it is undecided, and the note says which mesh
@@ -150,7 +150,8 @@ def _remedy(runs: Convergence, tolerance: float, bound: float, of_what: str) -> 
 def _finer(runs: Convergence, tolerance: float, bound: float) -> tuple[int | None, float | None]:
     """Return the elements and the step that would decide; None of what need not be finer.
 
-    The bar shrinks as the finest run's error does. Both are None where the reference is the cause.
+    The uncertainty shrinks as the finest run's error does. Both are None where the reference is
+    the cause.
     """
     if bound > max(runs.bar, 0.5 * tolerance):
         return None, None

@@ -136,7 +136,7 @@ class Run:
         Where it was read from, or how it was made.
     dof : int, optional
     wall, cpu : float
-        Time spent [s]; NaN if not told.
+        Time spent [s]; NaN if not given.
     remark : str
         The code's own objection to the run.
     rounding : float or ndarray (3,)

@@ -1,7 +1,7 @@
 """`verify`: a code that can be called runs the cases, and its results are judged.
 
 Anyone can have a code of their own judged: write a function with the signature of `Code`, wrap it
-in an `Entry`, and read the judgement::
+in an `Entry`, and read the judgment::
 
     def mine(case, *, elements, step):
         ...                                   # spin the blade up; sample q [m] over time [s]

@@ -1,6 +1,8 @@
-"""The pages are plain English: short sentences, and the words of the field."""
+"""Pages, docstrings and messages are plain English: short sentences, and the words of the field."""
 
+import ast
 import re
+from itertools import chain
 
 import pytest
 
@@ -33,6 +35,60 @@ def test_sentences_are_short_and_in_the_words_of_the_field(page):
     text = page.read_text(encoding="utf-8")
     assert long_sentences(text) == []
     assert own_words(text) == []
+
+
+CODE = sorted(
+    chain.from_iterable((ROOT / room).rglob("*.py") for room in ("analytic", "rotbeam_exu"))
+)
+SAID = {"Error", "error", "Warning", "warn", "print_text"}
+# Names of the interface, and bars that are drawn.
+NAMES = {
+    r"bars?": 7,
+    r"colour\w*|fibres?|licence|behaviour|centre\w*|grey|\w*metres?": 4,
+}
+
+
+def docstrings(tree):
+    kinds = ast.Module | ast.ClassDef | ast.FunctionDef
+    return filter(
+        None, (ast.get_docstring(one) for one in ast.walk(tree) if isinstance(one, kinds))
+    )
+
+
+def messages(tree):
+    """Return the words of errors, warnings and prints: all their constant strings."""
+    for one in ast.walk(tree):
+        called = one.func if isinstance(one, ast.Call) else None
+        name = getattr(called, "attr", getattr(called, "id", ""))
+        if name.endswith(("Error", "Warning")) or name in SAID:
+            parts = (part.value for part in ast.walk(one) if isinstance(part, ast.Constant))
+            yield " ".join(part for part in parts if isinstance(part, str))
+
+
+def spoken(text):
+    """Return a docstring without examples, code, options and the names of parameters."""
+    lines = [
+        line
+        for line in text.splitlines()
+        if not re.match(r"\s*(>>>|\.\.\. |\$ |\w[\w, ]* : |\w+(, \w+)*$)", line)
+    ]
+    return re.sub(r"`[^`]*`|--\w+", "X", " ".join(lines))
+
+
+@pytest.fixture(scope="module")
+def said():
+    trees = [ast.parse(file.read_text(encoding="utf-8")) for file in CODE]
+    return [spoken(text) for tree in trees for text in chain(docstrings(tree), messages(tree))]
+
+
+@pytest.mark.parametrize("pattern", OWN_WORDS)
+def test_docstrings_and_messages_have_the_words_of_the_field(said, pattern):
+    found = [
+        text[max(0, hit.start() - 40) : hit.end() + 40]
+        for text in said
+        for hit in re.finditer(rf"\b(?:{pattern})\b", text, re.IGNORECASE)
+    ]
+    assert len(found) <= NAMES.get(pattern, 0), found
 
 
 def test_both_can_fail():

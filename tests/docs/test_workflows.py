@@ -8,6 +8,10 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / ".github" / "workflows").glob("*.y*ml"))
+PUBLISHED = {
+    "release.yml": ["actions/download-artifact", "pypa/gh-action-pypi-publish"],
+    "site.yml": ["actions/deploy-pages"],
+}
 HASHED = ROOT / ".ci" / "build-requirements.txt"
 
 
@@ -37,9 +41,9 @@ def test_the_right_to_publish_runs_no_code(file):
     for name, job in jobs_of(text).items():
         rights = re.findall(r"[\w-]+: *write", job)
         if rights:
-            assert (name, rights) == ("publish", ["id-token: write"])
-            used = re.findall(r"\buses: *([\w./-]+)@", job)
-            assert used == ["actions/download-artifact", "pypa/gh-action-pypi-publish"]
+            pages = ["pages: write"] if file.name == "site.yml" else []
+            assert (name, rights) == ("publish", [*pages, "id-token: write"])
+            assert re.findall(r"\buses: *([\w./-]+)@", job) == PUBLISHED[file.name]
             assert not re.search(r"\brun:", job)
 
 

@@ -231,7 +231,7 @@ def test_structural_data_alone_are_straight_and_say_so(folder):
         load_beam(folder / "x_st.txt")
     text = FILES["x_st.txt"]
     (folder / "x_st.txt").write_text("#2" + text.partition("#2")[2])
-    with pytest.warns(UserWarning, match="tells no twist and no line: give the main file"):
+    with pytest.warns(UserWarning, match="has no twist and no line: give the main file"):
         blade = load_beam(folder / "x_st.txt")
     assert blade.section.x == (0.0, 12.0)
     assert not any(angle for _, angle in blade.line.twist)

@@ -155,7 +155,7 @@ def test_a_csv_alone_is_the_blade_that_a_toml_file_names(loaded, tmp_path):
     assert load_beam(tmp_path / "stations.csv") == blade.with_hub_radius(0.0)
     (tmp_path / "stations.csv").rename(tmp_path / "S.CSV")
     assert load_beam(tmp_path / "S.CSV") == blade.with_hub_radius(0.0)
-    with pytest.raises(ValueError, match="length beside file are for a blade file of ElastoDyn"):
+    with pytest.raises(ValueError, match="length next to file are for a blade file of ElastoDyn"):
         loaded(SPACE, f"{TOML}length = 8.0\n")
 
 

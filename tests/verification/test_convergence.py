@@ -29,7 +29,7 @@ def test_a_pure_power_is_found(order, elements):
     if order > 1.0 or len(elements) > 3:
         assert found.orders["mesh"].value == pytest.approx(order, rel=0.02)
     else:  # three meshes cannot tell it from a half and from one and a half
-        assert found.orders["mesh"].why == "the runs do not tell it"
+        assert found.orders["mesh"].why == "the runs do not determine it"
     assert abs(found.limit - LIMIT) <= found.bar
     exact = 1.0 / np.sort(elements) ** order
     assert found.errors == pytest.approx(exact, abs=0.1 * finest)

@@ -229,7 +229,7 @@ FAULTS = [
     (
         "runs.csv",
         lambda text: text.replace("S1/m008_h1e-3.csv,8,0.001,", "S1/m008_t1e-6.csv,8,,1e-6"),
-        "a step stands beside a tolerance of S1",
+        "a step and a tolerance of S1",
     ),
     ("runs.csv", lambda text: text + text.split("\n")[1], "stand in line 2: keep one"),
     ("L.csv", lambda text: text.replace("8,0.0,", "8,5.0,"), ":2: speed 5 is not asked for: hand"),

@@ -24,7 +24,7 @@ _TURNED, _REFLECTED = (1, 2, 4, 5), (1, 3, 5)  # components that half turn and m
 
 @dataclass(frozen=True, eq=False)
 class Answers:
-    """Forces from which functions are made beside polynomials, in the frame without twist."""
+    """Forces from which functions are made besides polynomials, in the frame without twist."""
 
     grid: Grid
     forces: FloatArray  # (points, 6, count)
@@ -72,7 +72,7 @@ def forces_caused(steady: Any, count: int) -> FloatArray:
 
 
 def beside(functions: Any, caused: FloatArray | None, seen: float | None = None) -> Answers:
-    """Return what `StrainFunctions` are made of beside first polynomials, on a finer grid.
+    """Return what `StrainFunctions` are made of besides first polynomials, on a finer grid.
 
     Answers so far; polynomials of higher degrees, a third more; and the forces caused, (points, 6,
     count), of answers on the functions. All but the first are orthonormal in flexibility to those

@@ -232,7 +232,7 @@ class Continuum(Kinematics):
         return self.blade.setting
 
     def skews(self, rate: float) -> bool:
-        """Whether Coriolis forces tell the two sides of a swing, so that it has even harmonics."""
+        """Whether Coriolis forces distinguish the sides of a swing, which has even harmonics."""
         return abs(rate * self.blade.setting) > 1e-9
 
     def family(self, gauge: str) -> str:

@@ -56,10 +56,10 @@ def resolved_model(
 
 
 def require_shear(blade: Blade, theory: Theory) -> None:
-    """Refuse a number for sections that tell their shear stiffness, and True for others."""
+    """Refuse a number for sections that have their shear stiffness, and True for others."""
     if theory.shear is not None and (theory.shear is True) != bool(blade.table):
         raise ValueError(
-            f"shear = {theory.shear} does not fit the blade: a blade from stations tells its "
+            f"shear = {theory.shear} does not fit the blade: a blade from stations has its "
             "shear stiffness, take Theory(shear=True); others need the ratio to EA, as "
             "Theory(shear=0.32)"
         )

@@ -267,7 +267,7 @@ class SpaceContinuum(SpaceKinematics):
         return None
 
     def skews(self, rate: float) -> bool:
-        """Whether Coriolis forces or its shape tell the sides of a swing: it has even harmonics."""
+        """Whether Coriolis forces or its shape give a swing even harmonics."""
         return abs(rate) > 1e-9 or not self.blade.half_turn
 
     def family(self, gauge: str) -> str:

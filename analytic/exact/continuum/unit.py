@@ -89,7 +89,7 @@ class SpaceUnit(UnitBlade):
     def inertia_about(self, x: FloatArray, slenderness: float) -> tuple[FloatArray, FloatArray]:
         """Return the centers of mass (3, places) from the line, and J about them (3, 3, places).
 
-        J is that of the section or, where it tells none, of a homogeneous one.
+        J is that of the section or, where it has none, of a homogeneous one.
         """
         j3 = evaluated(self.rotary, x)
         if not self.turns:
@@ -257,7 +257,7 @@ class StationUnit(SpaceUnit):
 
     @property
     def twists(self) -> bool:
-        """True: the matrices tell GJ."""
+        """True: the matrices contain GJ."""
         return True
 
     @property

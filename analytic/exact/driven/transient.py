@@ -257,7 +257,7 @@ class _Control:
         found: Root,
         method: Collocation,
     ) -> bool:
-        """Tell whether a step passes, to a state at its nodes; set the length of the next."""
+        """Return whether a step passes, to a state at its nodes; set the length of the next."""
         q, q_dot, q_ddot = state
         self.size = max(self.size, self._moved(q - self.start))
         self.speed = max(self.speed, self._moved(q_dot))

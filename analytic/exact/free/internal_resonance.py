@@ -1,7 +1,7 @@
 """Internal resonance: a harmonic of an orbit meets another mode.
 
 Small motion about an orbit of frequency Ω has frequencies of its own, ν_j, which its Floquet
-multipliers exp(2πi ν_j/Ω) tell. Harmonic k drives mode j where ν_j = kΩ: the multiplier is 1.
+multipliers exp(2πi ν_j/Ω) show. Harmonic k drives mode j where ν_j = kΩ: the multiplier is 1.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def frequency_at(orbits: Sequence[BladeOrbit], amplitude: float) -> float:
 def _pole(orbits: Sequence[BladeOrbit], k: int) -> float | None:
     """Return the amplitude at which harmonic k changes its sign through infinity, if it does.
 
-    There the mode is in resonance; ratios are held back from the whole number beside it.
+    There the mode is in resonance; ratios are held back from the whole number next to it.
     """
     for last, orbit in pairwise(orbits):
         if k > min(last.harmonics, orbit.harmonics):

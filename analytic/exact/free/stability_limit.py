@@ -16,7 +16,7 @@ from ..stability.growth import GROWTH, Growth
 from .planar_orbits import LEAST_GROWTH, SMALLEST, PlanarOrbits, planar_orbits
 
 LARGEST = 0.6
-"""Peak |q|/L up to which is looked unless told."""
+"""Peak |q|/L up to which is searched by default."""
 _NOTHING = 1e-3  # |q|/L from which is looked, if the smallest grows
 _STEP, _FINE, _LONG = 0.02, 0.0025, 0.05  # of the amplitude, from one to the next
 _STRONG = 10.0  # times the growth that counts, from which steps are long
@@ -68,7 +68,7 @@ class StabilityLimit:
     tongues : tuple of Tongue
         Where smaller orbits leave the plane, however slowly, between others that stay.
     converged : bool
-        Whether half as many functions and steps again tell the limit within 1 %.
+        Whether half as many functions and steps again give the limit within 1 %.
     """
 
     blade: Blade

@@ -57,7 +57,7 @@ class LinearModes:
     error : float
         Largest relative change of the frequencies by the last refinement.
     coordinates : ndarray (count, n)
-        The modes in the energy norm of the discretization, by which `campbell` tells them apart.
+        The modes in the energy norm of the discretization, by which `campbell` distinguishes them.
 
     Examples
     --------

@@ -62,7 +62,7 @@ def linear_modes(
         modes are resolved. They grow until more change no frequency by the tolerance.
     tolerance : float, optional
         Largest relative change of the frequencies by the last refinement; by default 1e-9, of a
-        blade from stations 1e-6. Short of it a warning comes with the answer, whose `error` tells
+        blade from stations 1e-6. Short of it a warning comes with the answer, whose `error` states
         how far.
 
     Raises

@@ -1,7 +1,7 @@
 """The blade in steady rotation over a range of speeds, out of few of them, and its modes there.
 
 Its steady state, stiffness, mass and Coriolis forces over the speed are analytic in its square, and
-smooth also where modes veer, as frequencies are not. So few speeds tell all that lie between.
+smooth also where modes veer, as frequencies are not. So few speeds determine all that lie between.
 """
 
 from __future__ import annotations
@@ -163,7 +163,7 @@ def range_between(
 ) -> tuple[SpeedRange, float]:
     """Return all speeds between two, and the largest relative error of frequencies seen.
 
-    It is that of the lowest `modes` at the speed added last, which the others told.
+    It is that of the lowest `modes` at the speed added last, which the others predicted.
     """
     found, last = SpeedRange(tuple(map(_solved, ends))), math.inf
     change = math.inf if len(ends) > 1 else 0.0

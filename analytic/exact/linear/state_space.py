@@ -42,7 +42,7 @@ class StateSpace:
         Each mode has a block [[σ, -ω], [ω, σ]], λ = σ + iω [1/s], ascending in |λ|. A state is in
         units of a mode with the elastic energy EI/L.
     B : ndarray (2 modes, inputs)
-        u are times of the loads `inputs`, beside those that act already.
+        u are times of the loads `inputs`, besides those that act already.
     C : ndarray (points, 12, 2 modes)
         y are changes by `OUTPUTS`: place [m] and turn [rad] in the frame that turns with the clamp,
         along it, in the direction of rotation and normal to both; force [N] and moment [N m] in the

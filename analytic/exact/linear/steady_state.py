@@ -1,4 +1,4 @@
-"""The steady state of a blade, in rotation or under a load at its tip, and states beside it."""
+"""The steady state of a blade, in rotation or under a load at its tip, and states near it."""
 
 from __future__ import annotations
 

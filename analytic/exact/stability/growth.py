@@ -58,7 +58,7 @@ class Growth(NamedTuple):
 def grown_and_checked(
     blade: Blade, orbit: Orbit[Any], theory: Theory, ratio: float = 0.0, confirm: bool = True
 ) -> tuple[Growth, bool]:
-    """Return what grows, and whether half as many functions and steps tell the same.
+    """Return what grows, and whether half as many functions and steps show the same.
 
     Or two thirds as many, where half as many do not; unless it need not be confirmed.
     """

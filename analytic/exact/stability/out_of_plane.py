@@ -63,7 +63,7 @@ class _Bases(NamedTuple):
 class FlapTorsion:
     """Galerkin discretization of L2 by at least so many shape functions for w and for φ each.
 
-    The theory tells whether there are the second line of L2, and inertia of the twist, as in space.
+    The theory decides on the second line of L2 and on inertia of the twist, as in space.
     The coordinates of w come first.
     """
 

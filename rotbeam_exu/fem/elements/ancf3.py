@@ -41,7 +41,7 @@ class Ancf3(Sheared, SectionSlopeNodes):
     beam's A and I, integrated exactly over the section and at two Gauss points along the element.
     The mass matrix (Eq. 9) is exact and holds the section's rotary inertia. A blade has its own
     section at these points: with taper or without, frequencies converge to fourth order. Where it
-    tells no rotary inertia it has that of a homogeneous section; at a setting angle sections are
+    has no rotary inertia it takes that of a homogeneous section; at a setting angle sections are
     laminae in the plane of bending. The clamp holds r = 0 besides r_y (Eq. 14): 16 elements have
     132 - 4 = 128 degrees of freedom, where the paper counts 130.
 

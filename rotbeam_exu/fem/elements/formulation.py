@@ -138,7 +138,7 @@ class Formulation(Described, abstract=True):
         return Theory(shear=self.shear_share, rotary_inertia=sheared, trapeze=not self.leaves_plane)
 
     def theory_of(self, blade: Blade) -> Theory:
-        """Theory of its beam where it models a blade; a table of stations tells its own shear."""
+        """Theory of its beam where it models a blade; a table of stations has its own shear."""
         table = blade.table and self.shear_share is not None
         return replace(self.theory, shear=True) if table else self.theory
 

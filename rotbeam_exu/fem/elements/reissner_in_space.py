@@ -44,7 +44,7 @@ class SpaceExact(Sheared, FrameNodes):
     Parameters
     ----------
     poisson_ratio, shear_correction : float
-        ν and k_s of the shear stiffness k_s A E/(2 (1 + ν)); a table of stations tells its own.
+        ν and k_s of the shear stiffness k_s A E/(2 (1 + ν)); a table of stations has its own.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The usual mistakes: before a large error is held against a code, what explains it is looked for.
+"""The usual mistakes: before a large error is judged, what explains it is searched.
 
 A mistake explains an error if the reference with this mistake leaves at most a fifth of it, and a
 third of what passes beyond the finest run's own error. A new one is a line or a function in

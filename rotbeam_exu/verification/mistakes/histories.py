@@ -75,7 +75,7 @@ class Mistake:
 def explaining(
     case: str, before: float, most: float, suspects: Iterable[tuple[str, str, float]]
 ) -> Mistake | None:
-    """Return the mistake that leaves least, if it leaves `most` at most and explains the error.
+    """Return the mistake with the least error, if that is `most` at most and explains the whole.
 
     Suspects are names, sentences and what each leaves. They are dear to compute, so that one which
     leaves far less than it may is the last.

@@ -94,7 +94,7 @@ def _listed(folder: Folder) -> Iterator[dict[str, Any]]:
             named = f"{int(elements)} elements and a {of} of {float(size):g}, the row does not"
             said = f"the file's name says {named}: correct one of them"
         elif first.setdefault(case, of) != of:
-            said = f"a {of} stands beside a {other} of {case}, which no fit takes together"
+            said = f"a {of} and a {other} of {case}, which no fit takes together"
         elif lines.setdefault(place, line) != line:
             said = f"the same case, mesh and {of} stand in line {lines[place]}: keep one"
         else:

@@ -60,7 +60,7 @@ class Column:
     """A column of numbers, in its unit, range, and among those asked for; or one of text.
 
     Each table has the needed columns; cells of the others may be empty. Each row has the measured
-    columns, but for rows that tell a failure.
+    columns, but for rows that report a failure.
     """
 
     name: str
@@ -231,7 +231,7 @@ def _wrong(
 def rows_of(folder: Folder, sheet: Sheet) -> Iterator[tuple[int, dict[str, str], dict[str, Any]]]:
     """Yield line, cells by column and values by field of each row that is right by itself.
 
-    Values that are not told are left out.
+    Values that are not given are left out.
     """
     for line, row in zip(sheet.lines, sheet.rows, strict=True):
         try:
