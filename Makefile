@@ -19,8 +19,9 @@ run: $(VENV)/.run  ## the main job: spin the paper's beam up
 figures: $(VENV)/.run  ## data, pictures and captions of every figure
 	$(BIN)/rotbeam figure all
 
-images: $(VENV)/.dev  ## the README's pictures, and three of the pages'
+images: $(VENV)/.dev  ## the README's pictures, three of the pages', the drawings, and the class as a notebook
 	$(BIN)/python docs/images/regenerate.py
+	$(BIN)/python tools/notebook.py
 
 golden: $(VENV)/.dev  ## regenerate the golden data of the tests
 	$(BIN)/python tests/comparison/golden/regenerate.py
