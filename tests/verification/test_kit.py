@@ -85,7 +85,7 @@ S1 = CASES["S1"]
     ],
 )
 def test_a_case_that_is_more_than_its_row_is_refused(part, missing):
-    with pytest.raises(ValueError, match=f"S1 has .*{missing}.*, of which cases.csv would tell"):
+    with pytest.raises(ValueError, match=f"S1 has .*{missing}.*, of which cases.csv would have"):
         row_of(replace(S1, **part))
 
 

@@ -109,6 +109,41 @@ def test_each_language_has_the_same_chain(language, chain, kit, tmp_path):
     assert float(listed[0]["wall_s"]) > 0.0
 
 
+@pytest.fixture(scope="session")
+def in_space(tmp_path_factory):
+    program = tmp_path_factory.mktemp("fortran") / "in_space"
+    source = STARTERS / "fortran" / "in_space.f90"
+    run(program.parent, tool("gfortran"), "-O2", "-Wall", "-o", program, source)
+    return program
+
+
+def test_the_chain_in_space_is_one_in_both_languages(in_space, tmp_path):
+    """And in the plane that of the starters: S1 has no kick."""
+    python = [sys.executable, STARTERS / "python" / "in_space.py"]
+    for case, columns in (("K", ("lag", "flap", "twist")), ("S1", ("q",))):
+        for name, command in (("fortran", [in_space]), ("python", python)):
+            run(tmp_path / name, *command, case, MESH, STEP)
+        one, other = (
+            history(tmp_path / name / case / f"m004_h{STEP}.csv") for name in ("fortran", "python")
+        )
+        for column in columns:
+            assert one[column] == pytest.approx(other[column], abs=1e-9), (case, column)
+    run(tmp_path / "plane", *COMMANDS["python"](tmp_path))
+    plane = history(tmp_path / "plane" / f"S1/m004_h{STEP}.csv")
+    assert plane["q"] == pytest.approx(other["q"], abs=1e-9)
+
+
+@pytest.mark.slow
+def test_the_chain_in_space_converges_to_the_reference(in_space, kit, tmp_path):
+    """Positions alone, without a rotation: K by nothing that the exact blade in space uses."""
+    runs = [*((n, "1.25e-5") for n in (32, 64, 128)), (32, "2.5e-5"), (32, "5e-5")]
+    for mesh, step in runs:
+        run(tmp_path / "mine", in_space, "K", mesh, step)
+    shutil.copy(kit / "sample" / "entry.toml", tmp_path / "mine")
+    found = judged(read_submission(tmp_path / "mine"))
+    assert found.outcome_of("K") is Outcome.REFERENCE, str(found)
+
+
 def submitted(chain, kit, folder, cases, steps=("8e-3", "4e-3", "2e-3"), meshes=(16, 32, 64, 128)):
     """Run the chain in C++ and return what it hands in, as read from its files."""
     folder.mkdir()
