@@ -170,13 +170,15 @@ def without_half_lists(app: Any, page: str, template: str, context: Any, tree: A
 
 
 def with_description(app: Any, page: str, template: str, context: Any, tree: Any) -> None:
-    """Give a page its first paragraph as the description that searches and previews show."""
-    del app, page, template
+    """Give a page its first paragraph and a picture, for searches and for previews of links."""
+    del page, template
     text = ""
     if tree is not None:
         paragraphs = (one.astext() for one in tree.findall(nodes.paragraph))
         text = next((" ".join(one.split()) for one in paragraphs if len(one) > 40), "")
+    text = re.sub(r" \[[\d, ]+\]", "", text)  # citations
     context["description"] = textwrap.shorten(text, 200, placeholder=" ...")
+    context["preview"] = f"{app.config.html_baseurl}_static/film.png"
 
 
 def spread(app: Any, env: Any, pages: list[str]) -> None:

@@ -1,5 +1,6 @@
 """The built site: complete in its folder, formulas included, as `make check-site` asks."""
 
+import re
 import shutil
 from html.parser import HTMLParser
 from pathlib import Path
@@ -55,6 +56,16 @@ def test_no_page_names_another_host_for_what_it_loads():
             if "//" in url and not url.startswith("data:")
         ]
         assert outside == [], page
+
+
+def test_home_says_what_it_is_to_those_who_get_its_link():
+    text = (SITE / "index.html").read_text(encoding="utf-8")
+    described = re.search(r'<meta name="description" content="([^"]*)"/>', text)[1]
+    assert described.startswith("A cantilever beam is spun up")
+    assert "[1" not in described
+    assert len(described) <= 200
+    picture = re.search(r'<meta property="og:image" content="([^"]*)"/>', text)[1]
+    assert (SITE / "_static" / picture.rpartition("/")[2]).exists()
 
 
 def test_the_reference_has_its_pages_and_pictures():
