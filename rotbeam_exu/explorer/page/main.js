@@ -28,7 +28,7 @@ function showControls() {
   document.getElementById("ramp-value").textContent = `${plain(T())} s`;
   for (const button of document.querySelectorAll("#jumps button")) button.setAttribute("aria-pressed", Math.abs(button.dataset.omega - D.omega[state.w]) < 1e-9);
   for (const key of ["scale", "norm", "view"])
-    for (const button of document.querySelectorAll(`[data-${key}]`)) button.setAttribute("aria-pressed", button.dataset[key] === state[key]);
+    for (const button of document.querySelectorAll(`button[data-${key}]`)) button.setAttribute("aria-pressed", button.dataset[key] === state[key]);
 }
 // Beside the charts where there is room, else below; on a phone the table is folded above them. Tab follows what is seen.
 const wide = matchMedia("(min-width: 1181px)"), phone = matchMedia("(max-width: 700px)");

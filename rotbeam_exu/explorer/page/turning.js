@@ -67,7 +67,7 @@ function turn(elapsed) {
   moveTurning();
 }
 // Simple or expert; and the ramp that leaves the least.
-for (const button of document.querySelectorAll("[data-view]")) button.addEventListener("click", () => set({view: button.dataset.view}));
+for (const button of document.querySelectorAll("button[data-view]")) button.addEventListener("click", () => set({view: button.dataset.view}));
 const quietest = () => {
   const left = Array.from(D.exact_ramp_time, (_, t) => exactLeft(speed(), t)).map(a => Number.isFinite(a) ? a : Infinity);
   return left.indexOf(Math.min(...left));
