@@ -16,7 +16,8 @@ PAGES = (
 )  # fmt: skip
 KINDS = (
     "index", "start", "class/index", "howto/judge", "gallery/index", "gallery/spin_up", "explorer",
-    "theory/errata", "reference/index", "reference/api/analytic.periodic_orbits", "_static/explorer",
+    "theory/errata", "reference/index", "reference/api/analytic.periodic_orbits",
+    "_static/explorer",
 )  # fmt: skip
 AXE = SITE.parents[2] / "node_modules" / "axe-core" / "axe.min.js"
 pytestmark = [
