@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from analytic import periodic_orbits
+from rotbeam_exu.explorer import explorer_page
 
 SIMPLE = "#view=simple&omega={}"
 
@@ -72,6 +73,16 @@ def test_the_quiet_ramp_leaves_the_least(simple, data):
     page.wait_for_function("document.getElementById('challenge').textContent.startsWith('Quiet')")
     assert page.locator("#ramp-value").inner_text() == f"{least:g} s"
     assert f"{np.nanmin(left):.4f} L" in page.locator("#challenge").inner_text()
+
+
+def test_a_blade_of_ones_own_has_no_linear_beam(open_page, data, tmp_path):
+    path = tmp_path / "own.html"
+    path.write_text(explorer_page(data.assign_attrs(blade="on a hub of 4 m")), encoding="utf-8")
+    page = open_page(path.as_uri())
+    assert not page.evaluate("turning.linear.getAttribute('d')")
+    assert not page.locator("#legend-linear").is_visible()
+    own = page.evaluate("exactFrequency(state.w, state.a)")
+    assert page.locator("#about-turning").inner_text() == f"It swings with {own:.2f} rad/s."
 
 
 @pytest.mark.parametrize("phone", [False, True])

@@ -12,6 +12,7 @@ turning.said = document.getElementById("about-turning");
 const AT_REST = D.exact_omega_n[0], SLOW = 4;  // the picture turns with 4 rad/s at most
 /** The linear beam exists for the paper's beam, whose first slider stop is at rest. */
 const hasLinear = DATA.blade === "" && D.omega[0] === 0;
+document.getElementById("legend-linear").hidden = !hasLinear;
 /** Tip over L of the linear beam, let go at q = a: q̈ + (ω_0² - ω²) q = 0. */
 function linearTip(w, i, time) {
   const k = AT_REST ** 2 - D.omega[w] ** 2, rate = Math.sqrt(Math.abs(k)) * time;
@@ -57,7 +58,7 @@ function moveTurning() {
   turning.linear.setAttribute("d", hasLinear && !lost ? smooth(turned(linearAxis(w, i, time), omega * time)) : "");
   const slower = Math.max(1, omega / SLOW);
   turning.said.textContent = (slower > 1 ? `${fixed(slower, 1)} times slower than real time. ` : "") +
-    (!hasLinear ? "" : Number.isFinite(lostAfter(w, i)) ? (lost ? `The linear beam is lost, ${fixed(lostAfter(w, i), 2)} s after both were let go.` : "Both were let go at the same deflection.")
+    (!hasLinear ? (Number.isFinite(own) ? `It swings with ${fixed(own, 2)} rad/s.` : "No exact orbit was found here.") : Number.isFinite(lostAfter(w, i)) ? (lost ? `The linear beam is lost, ${fixed(lostAfter(w, i), 2)} s after both were let go.` : "Both were let go at the same deflection.")
       : `The linear beam swings with ${fixed(Math.sqrt(AT_REST ** 2 - omega ** 2), 2)} rad/s, the exact one with ${fixed(own, 2)}. Turn faster than ${fixed(AT_REST, 2)} rad/s!`);
 }
 /** Go on by so many seconds on the clock; some time after the linear beam is lost, begin again. */
