@@ -17,9 +17,12 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 
 ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT))
+
+from docs._ext.blocks import FENCE, printed  # noqa: E402
+
 PAGE = ROOT / "docs" / "class" / "index.md"
 NOTEBOOK = PAGE.with_name("stiffening.ipynb")
-_BLOCK = re.compile(r"^```\{(\w+)\}[^\n]*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
 HELPERS = """import re
 
 import matplotlib.pyplot as plt
@@ -64,10 +67,12 @@ def cells() -> list[tuple[str, str]]:
     """Return the notebook's cells as (kind, source)."""
     page, found = PAGE.read_text(encoding="utf-8"), [("code", HELPERS)]
     last = 0
-    for block in _BLOCK.finditer(page):
+    for block in FENCE.finditer(page):
+        if not block[1].startswith("{"):
+            continue  # a block that is read, not run
         found.append(("markdown", _prose(page[last : block.start()])))
         last = block.end()
-        if block[1] == "computed":
+        if block[1] == "{computed}":
             code = (
                 FILM if "film(" in block[2] else re.sub(r"^print\(", "show(", block[2], flags=re.M)
             )
@@ -108,7 +113,7 @@ def executed() -> list[dict[str, Any]]:
         if kind == "code":
             shown.clear()
             if source != HELPERS.strip():
-                exec(compile(source, f"cell {number}", "exec"), names)
+                printed(source, names, f"cell {number}")
                 keep()
             cell |= {"execution_count": number, "outputs": list(shown)}
         made.append(cell)
@@ -130,5 +135,4 @@ def notebook() -> str:
 if __name__ == "__main__":
     mpl.use("agg")
     plt.show = lambda: None  # pictures are kept after each cell
-    sys.path.insert(0, str(ROOT))
     NOTEBOOK.write_text(notebook(), encoding="utf-8")

@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-_FENCE = re.compile(r"^```(\S+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^```(\S+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 class Block(NamedTuple):
@@ -24,7 +24,7 @@ class Block(NamedTuple):
 
 def fenced(markdown: str) -> Iterator[Block]:
     """Yield the fenced blocks of a page, ``{computed}`` ones included."""
-    for match in _FENCE.finditer(markdown):
+    for match in FENCE.finditer(markdown):
         text = re.sub(r"\A(:\w+:.*\n)+\n?", "", match[2])
         yield Block(match[1], text, markdown.count("\n", 0, match.start(2)) + 1)
 

@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
+from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from PIL import Image
 from scipy.interpolate import CubicSpline
@@ -70,6 +71,13 @@ def softening_by_plane() -> Axes:
     return ax
 
 
+def still(film: FuncAnimation, number: int) -> Axes:
+    """Return the first axes of a film's picture."""
+    film._draw_frame(number)
+    film._draw_was_started = True
+    return film._fig.axes[0]
+
+
 def twisted() -> Axes:
     """Return the views of a twisted, coned blade on a hub, 2.2 s after the start of its spin-up."""
     blade = Beam.reference().with_section_out_of_plane(0.25, 0.2).with_twist(0.8)
@@ -77,10 +85,7 @@ def twisted() -> Axes:
     times, points = np.linspace(0.0, 5.0, 51), np.linspace(0.0, blade.length, 25)
     motion = SpinUp(omega=4.0, ramp_time=3.0)
     found = spin_up_response(blade, motion, times, tolerance=1e-3, points=points)
-    film = figures.animate(dataset_of(found))
-    film._draw_frame(22)
-    film._draw_was_started = True
-    return film._fig.axes[0]
+    return still(figures.animate(dataset_of(found)), 22)
 
 
 def lost() -> Axes:
@@ -92,10 +97,7 @@ def lost() -> Axes:
         )
         for response in (spin_up_response, linear_response)
     ]
-    film = figures.animate(both[0], beside=both[1])
-    film._draw_frame(55)
-    film._draw_was_started = True
-    return film._fig.axes[0]
+    return still(figures.animate(both[0], beside=both[1]), 55)
 
 
 def write(ax: Axes, name: str) -> None:

@@ -1,4 +1,4 @@
-"""What the README and the page of findings claim."""
+"""Claims of the README and of the page of findings."""
 
 import re
 from pathlib import Path
@@ -57,6 +57,10 @@ def test_simulation_and_exact_backbone_agree_as_said(beam, mesh, elements, claim
     assert "Of the paper's 24 spin-ups 21 stay below a = 0.6." in FLAT
     assert "agree with the exact ω_NL to 3e-7; the defaults, 16 elements at 1 ms, to 6e-5" in FLAT
     assert f"{claimed:.0e}".replace("e-0", "e-") in README
+    home = (ROOT / "docs/index.md").read_text(encoding="utf-8")
+    assert (
+        "**3e-7**\n[agreement](findings.md) of 64 finite elements with the exact frequency" in home
+    )
     errors = []
     for omega, amplitude, ratio in golden_points(mesh):
         inside = amplitude < 0.6
@@ -84,6 +88,17 @@ def shares(element, spin_up):
         off[step] = steady.frequency / orbit.frequency[0] - 1.0
     of_step = (off[2e-3] - off[1e-3]) / 3.0
     return off[1e-3] - of_step, of_step
+
+
+def test_the_linear_beam_of_the_film_is_lost_as_said(beam):
+    """Where the speed of Eq. 1 reaches the first natural frequency at rest."""
+    motion, times = SpinUp(omega=4.0, ramp_time=3.0), np.linspace(0.0, 3.0, 30_001)
+    lost = np.interp(beam.omega_0, motion.rate(times), times)
+    said = f"unstable from {lost:.2f} s on"
+    for page in ("README.md", "docs/index.md"):
+        assert said in " ".join((ROOT / page).read_text(encoding="utf-8").split()), page
+    explorer = (ROOT / "docs/explorer.md").read_text(encoding="utf-8")
+    assert f"first natural frequency at rest, {beam.omega_0:.2f} rad/s" in explorer
 
 
 QUANTITIES = (

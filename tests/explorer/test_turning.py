@@ -7,6 +7,7 @@ import pytest
 
 from analytic import periodic_orbits
 from rotbeam_exu.explorer import explorer_page
+from tests.explorer.conftest import settle
 
 SIMPLE = "#view=simple&omega={}"
 
@@ -22,8 +23,15 @@ def test_it_opens_first_and_a_link_to_charts_opens_the_charts(open_page, url):
     assert page.locator("#turning").is_visible()
     assert not page.locator("#backbone").is_visible()
     assert page.locator("#omega-value").inner_text() == "2.00 rad/s"
+    page.locator("#omega").press("ArrowRight")
     page.get_by_role("button", name="expert").click()
     page.wait_for_selector("#backbone", state="visible")
+    settle(page)
+    # Hidden charts were not drawn, and now are those of the slider.
+    drawn = "[...document.querySelectorAll('.plot path')].map(path => path.getAttribute('d'))"
+    once = page.evaluate(drawn)
+    assert any(once)
+    assert page.evaluate(f"(drawAll(), {drawn})") == once
     assert not page.locator("#turning").is_visible()
     assert "view=expert" in page.locator("#link").get_attribute("href")
     charts = open_page(address + "#omega=6&a=0.3")

@@ -66,16 +66,17 @@ function set(change) {
   waiting = true;
   requestAnimationFrame(() => {
     const any = (...keys) => keys.some(key => changed.has(key));
-    if (any("w", "a", "hide", "scale", "norm")) drawBackbone();
-    if (any("w", "a", "hide")) drawOrbit();
-    if (any("scale", "hide")) drawSoftening();
-    if (any("w", "hide", "scale")) markSpeed();
-    if (any("w", "a")) drawBeam();
+    if (state.view === "expert") {  // what is hidden is drawn when it gets its size
+      if (any("w", "a", "hide", "scale", "norm")) drawBackbone();
+      if (any("w", "a", "hide")) drawOrbit();
+      if (any("scale", "hide")) drawSoftening();
+      if (any("w", "hide", "scale")) markSpeed();
+      if (any("w", "a")) drawBeam();
+    }
     if (any("t", "hide") || spun !== speed()) { drawSpinUp(); drawLeft(); }
     if (any("w", "t", "hide")) tellSpeed();
     if (any("w", "t", "view")) showView();
     if (any("w", "a")) drawTurning();
-    if (any("view")) drawAll();
     spun = speed();
     changed.clear();
     waiting = false;
