@@ -64,8 +64,8 @@ def in_space(blade, **options):
         ),
         (damped(BEAM, "ancf3", bending=0.01), "take 'cable' or 'exact', or external damping"),
         (damped(BEAM, "ancf3", axial=0.01), "element 'ancf3' has no viscosity"),
-        (damped(ALIKE, "space_cable", axial=0.01), "element 'space_cable' has no viscosity"),
-        (damped(ALIKE, "space_exact", bending=0.01), "take 'cable' or 'exact', or external"),
+        (damped(ALIKE, "space_cable", axial=0.01), "has damping .*: take 'space_exact', or exter"),
+        (damped(BEAM, "cable", shear=0.01), "no damping of shear: .*, or take 'space_exact'"),
         (damped(BEAM, "linear", external=0.01), "has damping: take 'cable', 'exact' or 'ancf3'"),
         (damped(BEAM, "substructures", bending=0.01), "for the uniform beam .* has damping"),
         # In space.

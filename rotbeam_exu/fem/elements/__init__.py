@@ -64,15 +64,18 @@ def require_modeled(blade: Blade, model: Formulation, frame: Frame = "inertial")
     if not model.takes_blades:
         raise ValueError(
             f"element {model.name!r} is for the uniform beam at the axis, and this blade has "
-            f"{unit.differences}: take {_any_of(lambda cls: cls.takes_blades)}"
+            f"{unit.differences}: take {_any_of(model, lambda cls: cls.takes_blades)}"
         )
     if any(unit.damping.of_strains) and not model.takes_viscosity:
         raise ValueError(
             f"element {model.name!r} has no viscosity, and this blade has damping of its strains: "
-            f"take {_any_of(lambda cls: cls.takes_viscosity)}, or external damping"
+            f"take {_any_of(model, lambda cls: cls.takes_viscosity)}, or external damping"
         )
-    if unit.damping.shear:
-        raise ValueError("no element has damping of shear: leave shear out of Damping")
+    if unit.damping.shear and not model.twists:
+        raise ValueError(
+            f"element {model.name!r} has no damping of shear: leave shear out of Damping, or take "
+            f"{_any_of(model, lambda cls: cls.twists)}"
+        )
 
 
 def require_joint(model: Formulation) -> None:
@@ -80,13 +83,16 @@ def require_joint(model: Formulation) -> None:
     if not model.joint:
         raise ValueError(
             f"no joint clamps element {model.name!r} to the marker of a body: take "
-            f"{_any_of(lambda cls: bool(cls.joint))}, or a prescribed rotation"
+            f"{_any_of(model, lambda cls: bool(cls.joint))}, or a prescribed rotation"
         )
 
 
-def _any_of(able: Callable[[type[Formulation]], bool]) -> str:
-    names = [repr(name) for name, cls in FORMULATIONS.items() if able(cls) and not cls.leaves_plane]
-    return f"{', '.join(names[:-1])} or {names[-1]}"
+def _any_of(model: Formulation, able: Callable[[type[Formulation]], bool]) -> str:
+    """Return the names of those that are able to, first of as many dimensions as the model's."""
+    able_ones = [cls for cls in FORMULATIONS.values() if able(cls)]
+    alike = [cls for cls in able_ones if cls.leaves_plane == model.leaves_plane] or able_ones
+    *most, last = [repr(cls.name) for cls in alike]
+    return f"{', '.join(most)} or {last}" if most else last
 
 
 __all__ = [

@@ -21,7 +21,7 @@ from ..lazily import exudyn, items
 from ..mesh import Mesh, cells
 from .energy_body import Assembly, add_force, add_mass
 from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
-from .node_kinds import FrameNodes, directors, onto_parameters, require_bare, turning_rate
+from .node_kinds import FrameNodes, cross, directors, onto_parameters, require_bare, turning_rate
 
 _INNER, _ = gauss_points(2)
 """Where Exudyn integrates the inertia against rotation, with equal weights, as measured."""
@@ -38,8 +38,8 @@ class SpaceExact(Sheared, FrameNodes):
     stations. It may have kinks; one about both axes of sections that bend more easily about one of
     them leaves an error of first order. Exudyn's section couples no strains: what of the stiffness
     is off the diagonal is a force of our own, called from Exudyn. Sections have their inertia and
-    the propeller moment, but not the trapeze effect. Damping is external only, for Exudyn ignores
-    that of strains.
+    the propeller moment, but not the trapeze effect. Exudyn ignores its section's damping:
+    viscosity is a force of our own too.
 
     Parameters
     ----------
@@ -62,6 +62,7 @@ class SpaceExact(Sheared, FrameNodes):
     name: ClassVar[str] = "space_exact"
     order = 2.0
     takes_blades: ClassVar[bool] = True
+    takes_viscosity: ClassVar[bool] = True
     new_jacobians: ClassVar[bool] = True  # half the time
     # With 0.9 short waves of the Euler parameters grow, and Newton's method then gives up.
     spectral_radius: ClassVar[float] = 0.6
@@ -105,15 +106,27 @@ class SpaceExact(Sheared, FrameNodes):
         if row.uneven.any():
             places = np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
             add_mass(mbs, nodes, row.add.matrix(np.asarray(np.kron(row.uneven, places), float)))
-        coupled = None
-        if row.coupling.any():
-            coupled = row.coupled_energy
+        viscous = row.dissipation if row.viscosity.any() else None
+        coupled = row.coupled_energy if row.coupling.any() else None
+        if coupled or viscous:
+
+            def derivatives(t: float, e: FloatArray) -> list[tuple[FloatArray, float, float]]:
+                # In motion Newton's method does without that of viscous forces by the place.
+                parts = [(row.add.triplets(row.slope(e)), -1.0, 0.0)] if coupled else []
+                if viscous:
+                    change = row.turned_strains(row.add.gather(e))
+                    damping = np.swapaxes(change, -1, -2) @ row.viscosity @ change
+                    parts.append((row.add.triplets(damping), 0.0, -1.0))
+                return parts
+
             add_force(
                 mbs, nodes,
-                force=lambda t, e, rates: -row.add.vector(row.coupled(row.add.gather(e))),
-                derivatives=lambda t, e: [(row.add.triplets(row.slope(e)), -1.0, 0.0)],
+                force=lambda t, e, rates: -row.add.vector(
+                    row.own_force(row.add.gather(e), row.add.gather(rates) if viscous else None)
+                ),
+                derivatives=derivatives,
             )  # fmt: skip
-        return Chain(nodes=nodes, bodies=tuple(bodies), elastic_energy=coupled)
+        return Chain(nodes=nodes, bodies=tuple(bodies), elastic_energy=coupled, dissipation=viscous)
 
     def arms(self, blade: Blade, elements: int) -> FloatArray:
         """Return the places of the centers of mass, (nodes, 3)."""
@@ -183,9 +196,9 @@ _STEPS = _STEP * np.stack((np.eye(14)[_TURNS], -np.eye(14)[_TURNS]))
 class _Row:
     """A row of elements: its unloaded blade, sections, strains and inertia against rotation.
 
-    Stiffness (elements, 6, 6), with strains in the order ε, γ2, γ3, κ1, κ2, κ3, and inertia
-    (elements, 3, 3) are about the centers of mass, which are at `arms` (nodes, 3) from the line in
-    axes of the section; `compliance` (elements,) is the mean of 1/EA.
+    Stiffness and, over the length, viscosity (elements, 6, 6), with strains in the order ε, γ2, γ3,
+    κ1, κ2, κ3, and inertia (elements, 3, 3) are about the centers of mass, which are at `arms`
+    (nodes, 3) from the line in axes of the section; `compliance` (elements,) is the mean of 1/EA.
     """
 
     def __init__(self, element: SpaceExact, blade: Blade, elements: int) -> None:
@@ -221,6 +234,17 @@ class _Row:
         self.stiffness = scale * np.linalg.inv(mesh.mean(soft) / mesh.mean(weight))
         self.compliance = mesh.mean(stretched)[:, 0, 0] * L**2 / blade.bending_stiffness
         self.coupling = self.stiffness * (1.0 - np.eye(6))
+        forces = self.stiffness[:, :3]
+        free = np.linalg.inv(forces[:, :, :3])  # strains over forces where nothing bends
+        rates = np.sqrt(blade.damping.of_strains)[:, None]
+        held, acting = (
+            np.zeros_like(self.stiffness),
+            np.tile(np.diag(rates[:, 0]), (elements, 1, 1)),
+        )
+        held[:, :3, :3], acting[:, :3] = free, rates[:3] * forces
+        held[:, 3:, 3:] = (self.stiffness - np.swapaxes(forces, 1, 2) @ free @ forces)[:, 3:, 3:]
+        # Viscous resistance over the length, of forces and of moments about their centers.
+        self.viscosity = np.swapaxes(acting, 1, 2) @ held @ acting / self.lengths[:, None, None]
         self.mass = mesh.sections.mass_per_length
         # Of functions of both ends; those of the mean mass are Exudyn's.
         even = np.multiply.outer(self.mass, [[2.0, 1.0], [1.0, 2.0]]) / 6.0
@@ -243,8 +267,8 @@ class _Row:
         return self._strains(*self._screws(e)[1:4])
 
     def _strains(self, d: FloatArray, psi: FloatArray, bent: FloatArray) -> FloatArray:
-        across = _cross(psi, d)
-        u = d - 0.5 * across + bent * _cross(psi, across)
+        across = cross(psi, d)
+        u = d - 0.5 * across + bent * cross(psi, across)
         return np.concatenate((u, psi), axis=-1) / self.lengths[:, None] - self._unloaded
 
     def _screws(self, e: FloatArray) -> tuple[FloatArray, ...]:
@@ -256,7 +280,7 @@ class _Row:
         turn, p = directors(q[..., 3:]), q[..., 3:]
         d = _times(np.swapaxes(turn[..., 0, :, :], -1, -2), q[..., 1, :3] - q[..., 0, :3])
         (a, u), (b, v) = ((p[..., i, :1], p[..., i, 1:]) for i in (0, 1))
-        cosine, sine = a * b + _dot(u, v), a * v - b * u - _cross(u, v)
+        cosine, sine = a * b + _dot(u, v), a * v - b * u - cross(u, v)
         sine = np.where(cosine < 0.0, -sine, sine)  # of p and -p the rotation is the same
         size = np.maximum(np.sqrt(_dot(sine, sine)), 1e-300)
         psi = 2.0 * np.arctan2(size, np.abs(cosine)) / size * sine
@@ -278,30 +302,55 @@ class _Row:
         stress = _times(self.coupling, strain)
         return np.asarray(0.5 * np.sum(strain * stress, axis=-1) @ self.lengths)
 
-    def coupled(self, e: FloatArray) -> FloatArray:
-        """Return the gradient (..., elements, 14) of the same."""
-        turn, d, psi, bent, change = self._screws(e)
-        stress = _times(self.coupling, self._strains(d, psi, bent))
+    def own_force(self, e: FloatArray, rates: FloatArray | None = None) -> FloatArray:
+        """Return the gradient (..., elements, 14) of the same and, with rates, viscous forces."""
+        screws = self._screws(e)
+        stress = _times(self.coupling, self._strains(*screws[1:4]))
+        if rates is None:
+            return self._onto_ends(e, screws, stress)
+        change = self.turned_strains(e, screws)
+        stress += _times(self.viscosity, _times(change, rates))
+        return _times(np.swapaxes(change, -1, -2), stress)
+
+    def _onto_ends(
+        self, e: FloatArray, screws: tuple[FloatArray, ...], stress: FloatArray
+    ) -> FloatArray:
+        """Return the forces (..., elements, 14) of stresses: l ∂ε/∂e from the left."""
+        turn, d, psi, bent, change = screws
         n, m = stress[..., :3], stress[..., 3:]
-        once = _cross(psi, n)
-        twice = _cross(psi, once)
+        once = cross(psi, n)
+        twice = cross(psi, once)
         force = n + 0.5 * once + bent * twice
-        m = m - 0.5 * _cross(d, n) + change * _dot(twice, d) * psi
+        m = m - 0.5 * cross(d, n) + change * _dot(twice, d) * psi
         m = m + bent * (_dot(psi, d) * n + _dot(psi, n) * d - 2.0 * _dot(d, n) * psi)
-        once = _cross(psi, m)
-        end = m - 0.5 * once + bent * _cross(psi, once)
-        start = _cross(force, d)
+        once = cross(psi, m)
+        end = m - 0.5 * once + bent * cross(psi, once)
+        start = cross(force, d)
         start -= _times(np.swapaxes(turn[..., 0, :, :], -1, -2), _times(turn[..., 1, :, :], end))
         along = _times(turn[..., 0, :, :], force)
         p = e.reshape(*e.shape[:-1], 2, 7)[..., 3:]
         torques = onto_parameters(p, np.stack((start, end), axis=-2))
         both = np.concatenate((np.stack((-along, along), axis=-2), torques), axis=-1)
-        return np.asarray(both.reshape(e.shape))
+        return both.reshape(*both.shape[:-2], 14)
+
+    def turned_strains(
+        self, e: FloatArray, screws: tuple[FloatArray, ...] | None = None
+    ) -> FloatArray:
+        """Return l ∂ε/∂e, (..., elements, 6, 14)."""
+        screws = screws or self._screws(e)
+        units = np.eye(6).reshape(6, *(e.ndim - 1) * [1], 6)
+        return np.moveaxis(self._onto_ends(e, screws, units), 0, -2)
+
+    def dissipation(self, coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
+        """Return the power (samples,) that viscosity takes."""
+        e, rates = (self.add.gather(v.reshape(len(v), -1)) for v in (coordinates, velocities))
+        rate = _times(self.turned_strains(e), rates)
+        return np.asarray(np.sum(rate * _times(self.viscosity, rate), axis=(-2, -1)))
 
     def slope(self, e: FloatArray) -> FloatArray:
-        """Return the derivative (elements, 14, 14) of `coupled` at all coordinates."""
+        """Return the derivative (elements, 14, 14) of `own_force` at rest at all coordinates."""
         at, steps = self.add.gather(e), _STEP * np.eye(14)[:, None]
-        change = self.coupled(at + steps) - self.coupled(at - steps)
+        change = self.own_force(at + steps) - self.own_force(at - steps)
         return np.moveaxis(change, 0, -1) / (2.0 * _STEP)
 
     def turning(
@@ -333,8 +382,8 @@ class _Row:
         def times(vector: FloatArray) -> FloatArray:
             return np.asarray((inertia @ vector[..., None])[..., 0])
 
-        torque = np.cross(spin, times(spin)) - np.cross(spin + W, times(spin + W))
-        torque -= times(W_dot + np.cross(W, spin))
+        torque = cross(spin, times(spin)) - cross(spin + W, times(spin + W))
+        torque -= times(W_dot + cross(W, spin))
         ends = 0.5 * self.lengths[:, None, None] * _VALUES.T @ torque
         p = e.reshape(*e.shape[:-1], 2, 7)[..., 3:]
         local = (np.swapaxes(turn, -1, -2) @ ends[..., None])[..., 0]
@@ -366,14 +415,6 @@ def _rotation_vector(turn: FloatArray) -> FloatArray:
     """Return the rotation vectors (..., 3) of rotations (..., 3, 3)."""
     flat = spatial.transform.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
     return np.asarray(flat.reshape(turn.shape[:-1]))
-
-
-_NEXT, _LAST = [1, 2, 0], [2, 0, 1]
-
-
-def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return a × b of vectors (..., 3), in a fifth of NumPy's time where they are few."""
-    return a[..., _NEXT] * b[..., _LAST] - a[..., _LAST] * b[..., _NEXT]
 
 
 def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
