@@ -107,7 +107,7 @@ def require_undamped(blade: Blade, what: str) -> None:
     require_blade(blade)
     if blade.damping:
         raise ValueError(
-            f"{what}: take forced_response for the damped blade, or beam.with_damping(Damping()), "
+            f"{what}: take forced_response for the damped blade, or blade.with_damping(Damping()), "
             "which has none"
         )
 

@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 import analytic
 from analytic import Blade
-from analytic.blade_checks import require_planar
+from analytic.blade_checks import require_planar, undamped
 from analytic.warning import warn
 
 from .job import Flag
@@ -70,7 +70,7 @@ def backbone(
     $ rotbeam backbone --omega 6 --variant FrM --amplitude 0.05 0.1 --format csv
     $ rotbeam backbone --omega 6 --mode "lag 2" --amplitude 0.02 0.05
     """
-    blade, omega, theory = request.blade, request.omega, request.theory
+    blade, omega, theory = _free(request.blade), request.omega, request.theory
     if amplitude is None:
         amplitude = [(1 if blade.table else 5) * n / 100 for n in range(1, 5)]
     if mode != "lag 1" and (variant is not None or all_variants):
@@ -109,6 +109,13 @@ def backbone(
         warn(f"no answer: {sentence}")
     if failure:
         raise RuntimeError(failure)
+
+
+def _free(blade: Blade) -> Blade:
+    """Return the blade without its damping, and say so."""
+    if blade.damping:
+        warn("free orbits have no damping: these are of the blade without its damping")
+    return undamped(blade)
 
 
 def _reduced(

@@ -16,7 +16,7 @@ from analytic.input_checks import positive, rotation_speed, whole_number
 
 from .job import Flag, Results
 from .options import Number, Whole
-from .output import bar, formatted, print_columns
+from .output import bar, formatted, print_columns, print_note
 from .request import Request, uses
 
 if TYPE_CHECKING:
@@ -125,6 +125,12 @@ def _print(diagram: Campbell, band: FloatArray | None) -> None:
             {speed: formatted(diagram.omegas * over / per_second, ".4g")}
             | {name: column(row, name) for name, row in zip(names, rows, strict=True)},
             title=f"Frequencies [{unit}]",
+        )
+    veered = [f"{a} → {b}" for a, b in zip(names, diagram.last_names, strict=True) if a != b]
+    if veered:
+        print_note(
+            "Modes are named by their motion at the lowest speed. Where two veer they exchange it: "
+            f"at {diagram.omegas[-1]:.4g} rad/s {', '.join(veered)}"
         )
     if band is not None:
         percent = (100.0 * band / diagram.frequencies).T

@@ -125,3 +125,15 @@ def test_tables_are_printed_with_their_notes(call, monkeypatch):
             assert {row.printed, row.derived} <= cells
             assert row.note in printed
     assert "erratum" in tables[2]
+
+
+def test_the_backbone_of_a_damped_blade_is_that_without_damping(call, tmp_path):
+    orbits = ("backbone", "--exact", "--amplitude", "0.1", "--format", "csv", "--config")
+    answers = []
+    for name, damping in (("free", ""), ("damped", "[blade.damping]\nratio = 0.01\n")):
+        file = tmp_path / f"{name}.toml"
+        file.write_text(BLADE + damping)
+        answers.append(call(*orbits, file))
+    assert answers[0][:2] == answers[1][:2]
+    assert answers[0][0] == 0
+    assert "without its damping" in answers[1][2]

@@ -206,7 +206,7 @@ def _require_no_resonance(
     """Refuse frequencies that include a mode's, or speeds at which a mode meets a multiple."""
     no_end, remedy = (
         "without damping the response has no end at resonance, and",
-        ("take beam.with_damping(Damping(...))"),
+        ("take blade.with_damping(Damping(...))"),
     )
     if omega is None:
         slow, fast = (

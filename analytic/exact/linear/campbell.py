@@ -75,6 +75,8 @@ class Campbell:
         Where frequencies cross the lines kω, k from 1, within the speeds.
     names : tuple of str
         The name of each column, "lag 1" say, by the shares of the mode at the lowest speed.
+    last_names : tuple of str
+        The same at the highest speed: where modes veer, they exchange their shares.
     theory : Theory
     error : float
         Largest relative change of the frequencies by the last refinement at both ends, and by the
@@ -95,6 +97,7 @@ class Campbell:
     mac: FloatArray
     crossings: tuple[Crossing, ...]
     names: tuple[str, ...]
+    last_names: tuple[str, ...]
     theory: Theory
     error: float
     _between: SpeedRange = field(repr=False)
@@ -149,8 +152,8 @@ class Campbell:
         kinds = [name.split()[0] for name in self.names]
         heights = apart(curves[-1], 0.045 * top)
         wide = np.zeros_like(self.frequencies) if deviations is None else 2.0 * deviations
-        for kind, name, row, height, band in zip(
-            kinds, self.names, curves.T, heights, wide.T, strict=True
+        for kind, name, later, row, height, band in zip(
+            kinds, self.names, self.last_names, curves.T, heights, wide.T, strict=True
         ):
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
@@ -160,7 +163,8 @@ class Campbell:
                 half = np.interp(omegas, self.omegas, band)
                 ax.fill_between(omegas, row - half, row + half, color=color, alpha=0.2, lw=0.0)
             ax.annotate(
-                name, (high, height), xytext=(4, 0), textcoords="offset points",
+                name if later == name else f"{name} → {later}",
+                (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,
             )  # fmt: skip
         crossed = np.array([(c.omega, c.frequency) for c in met]).reshape(-1, 2)
@@ -275,6 +279,7 @@ def _diagram(
         wanted = max(wanted + 1, len(places_of(below, len(below), only)))
 
     names = tuple(all_names[place] for place in places)
+    at_last = mode_names(last.steady.shares)
     crossings = [
         Crossing(
             mode=names[column],
@@ -294,6 +299,7 @@ def _diagram(
         ).reshape(-1, count),
         crossings=tuple(sorted(crossings, key=lambda c: (names.index(c.mode), c.order))),
         names=names,
+        last_names=tuple(at_last[place] for place in last.places),
         theory=theory,
         error=max(error, *(one.error for one in modes)),
         _between=between,

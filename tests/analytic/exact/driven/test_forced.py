@@ -160,7 +160,7 @@ def test_what_a_response_says_of_itself(loaded):
     ("call", "error", "sentence"),
     [
         (lambda: forced_response(BEAM, 6.0, TipForce(amplitude=1.0), [3.0, 3.1, 4.0]), ValueError,
-         "lag 1 is at 3.7304 rad/s: take beam.with_damping"),
+         "lag 1 is at 3.7304 rad/s: take blade.with_damping"),
         (lambda: forced_response(by_mass(0.1), [3.0, 4.0], Gravity(), [3.0, 4.0]), ValueError,
          "gravity goes around once a turn, at ω itself: give the speeds as omega"),
         (lambda: forced_response(by_mass(0.1), 6.0, TipForce(amplitude=1.0, frequency=2.0),

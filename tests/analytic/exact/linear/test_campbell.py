@@ -49,7 +49,13 @@ def test_a_strip_has_modes_of_all_families_followed_far(beam):
 def test_a_twisted_coned_blade_has_its_frequencies_where_modes_veer(beam):
     """Torsion 1 meets flap 3 at 6.5 rad/s to 1 %, and lag 1 meets flap 1 at 2 rad/s."""
     limp = beam.with_section_out_of_plane(0.3, 2e-3).with_twist(0.6).with_precone(0.1)
-    told(campbell(limp, [0.0, 2.0, 5.7, 6.5, 8.0], 6, orders=4), 1e-9)
+    diagram = campbell(limp, [0.0, 2.0, 5.7, 6.5, 8.0], 6, orders=4)
+    told(diagram, 1e-9)
+    # The same names as by the modes of one speed.
+    last = linear_modes(limp, 8.0, 9)
+    places = [np.argmin(np.abs(last.frequencies - one)) for one in diagram.frequencies[-1]]
+    assert diagram.last_names == tuple(last.names[place] for place in places)
+    assert diagram.last_names != diagram.names
 
 
 @pytest.mark.slow  # a table of 49 stations at six speeds
