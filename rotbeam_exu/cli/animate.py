@@ -104,6 +104,7 @@ def animate(
     require_writable(target, force=force)
     data, linear = film.made()
     end, count = float(data["time"][-1]), data.sizes["time"]
+    slower = float(f"{1.0 / (rate * float(data['time'][1] - data['time'][0])):.2g}")
     if target.suffix == ".pvd":
         save_vtk(data, target, height=height, width=width)
     else:
@@ -114,17 +115,16 @@ def animate(
     size = sum(file.stat().st_size for file in (target, *target.with_suffix("").glob("*.vtu")))
     print_text(
         f"written {target}, {size / 1e6:.1f} MB, {film.words}, to {end:g} s"
-        + ("" if film.slower == 1.0 else f", {film.slower:g} times slower"),
+        + ("" if slower == 1.0 else f", {slower:g} times slower"),
     )
 
 
 class _Film(NamedTuple):
-    """A film to be made: its blade, name and words, how much slower, and its data when asked."""
+    """A film to be made: its blade, name and words, and its data when asked."""
 
     blade: Blade
     name: str
     words: str
-    slower: float
     made: Callable[[], tuple[xr.Dataset, xr.Dataset | None]]
 
 
@@ -146,9 +146,7 @@ def _of_run(kept: xr.Dataset, rate: int) -> _Film:
     sampled = float(kept["time"][1] - kept["time"][0])
     every = max(1, round(1.0 / (rate * slower * sampled)))
     name, words = _named(speed, ramp)
-    return _Film(
-        blade, name, words, slower, lambda: (kept.isel(time=slice(None, None, every)), None)
-    )
+    return _Film(blade, name, words, lambda: (kept.isel(time=slice(None, None, every)), None))
 
 
 def _of_spin_up(request: Request, rate: int, *, beside: bool) -> _Film:
@@ -170,18 +168,20 @@ def _of_spin_up(request: Request, rate: int, *, beside: bool) -> _Film:
                 return data, None
             return data, dataset_of(linear_response(blade, spin_up, times, points=points))
 
-    return _Film(blade, name + "-beside-linear" * beside, words, slower, made)
+    return _Film(blade, name + "-beside-linear" * beside, words, made)
 
 
 def _of_mode(request: Request, mode: str, rate: int) -> _Film:
     blade, omega = request.blade, request.motion.spin_up.omega
-    with bar("modes"):
-        modes = linear_modes(blade, omega, _MODES, theory=request.theory)
-    pictures = math.ceil(_PERIOD * rate)
-    data = vibration_of(modes, mode, np.linspace(0.0, blade.length, _POINTS), pictures=pictures)
-    slower = 1.0 / (rate * float(data["time"][1]))
+
+    def made() -> tuple[xr.Dataset, None]:
+        with bar("modes"):
+            modes = linear_modes(blade, omega, _MODES, theory=request.theory)
+        points = np.linspace(0.0, blade.length, _POINTS)
+        return vibration_of(modes, mode, points, pictures=math.ceil(_PERIOD * rate)), None
+
     name = f"{mode.replace(' ', '-')}-omega-{omega:g}"
-    return _Film(blade, name, f"{mode} at {omega:g} rad/s", slower, lambda: (data, None))
+    return _Film(blade, name, f"{mode} at {omega:g} rad/s", made)
 
 
 def _named(omega: float, ramp_time: float) -> tuple[str, str]:

@@ -181,6 +181,8 @@ def save_animation(
 
     check_format(path)
     animation = animate(data, beside=beside, rate=rate)
+    canvas: Any = animation._fig.canvas  # type: ignore[attr-defined]
+    canvas.draw_idle = lambda: None  # Agg would draw each picture now, and once more to save it
     fps: Any = rate or 1.0 / float(data["time"][1] - data["time"][0])
     writer = _Gif(fps=fps) if path.suffix == ".gif" else FFMpegWriter(fps=fps)
     try:

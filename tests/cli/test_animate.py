@@ -113,5 +113,7 @@ def test_a_mode_is_shown_alone_and_slowly(call, monkeypatch, tmp_path):
     ):
         code, out, _ = film(call, monkeypatch, tmp_path, *options, *more)
         assert (code, sentence in out) == (2, True), out
+    # A file that cannot be written is refused before the modes are computed.
+    monkeypatch.delattr("rotbeam_exu.cli.animate.linear_modes")
     code, _, out = call("animate", *options, "flap 1", "--out", tmp_path / "film.pvd")
     assert (code, "the ending must be .gif or .mp4" in out) == (2, True), out
