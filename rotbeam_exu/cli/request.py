@@ -34,7 +34,7 @@ _GROUPS: dict[str, tuple[str, ...]] = {
     "mesh": ("element", "elements"),
     "discretization": ("element", "elements", "step", "duration", "frame"),
     "section": ("section", "ratio"),
-    "load": (*KINDS,),
+    "load": (*KINDS, "loads of a file"),
     "loads": (*KINDS, "load_frequency"),
     "damping": ("damping_ratio", "external_damping"),
 }
@@ -42,7 +42,7 @@ _GROUPS: dict[str, tuple[str, ...]] = {
 
 _KEYS = {
     "omega": "motion.omega", "speed": "motion.omega", "ramp_time": "motion.ramp_time",
-    "load_frequency": "loads", "theory": "theory",
+    "load_frequency": "loads", "loads of a file": "loads", "theory": "theory",
     **{key: f"numerics.{key}" for key in NUMERICS.optional},
 }  # fmt: skip
 """Tables or keys of a file that options replace."""
@@ -141,8 +141,7 @@ def uses(*names: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Give a command the options that it names, and hand it a `Request` in their place.
 
     `names` are options, words of `_GROUPS`, and keys of a file that have no option, as
-    "motion.omega". Of other tables of a file the command uses nothing, and a file with one is
-    refused.
+    "motion.omega". Of other tables of a file the command uses nothing, and a warning says so.
     """
     words = [word for name in names for word in _GROUPS.get(name, (name,))]
     keys = [_KEYS.get(word, word) for word in words if word in _KEYS or word not in OPTIONS]
@@ -217,23 +216,23 @@ def _theory(pairs: Sequence[str]) -> dict[str, Any]:
 def _configured(config: Path | None, uses: Sequence[str]) -> RunFile:
     """Return the tables and keys of a file that a command uses; without one, the paper's beam.
 
-    Loads or a theory of which the command uses nothing are refused; a warning names other keys that
-    it does not use, unless it uses the speed of a motion.
+    A warning names what it does not use, unless it uses the speed of a motion alone.
     """
     file = RunFile(blade=Beam.reference()) if config is None else load_run_file(config)
     kept: dict[str, Any] = {}
     for name in (one.name for one in fields(file) if one.name not in ("blade", *uses)):
         given = getattr(file, name)
         keys = [use.removeprefix(f"{name}.") for use in uses if use.startswith(f"{name}.")]
-        if given and not keys and name in ("loads", "theory"):
-            title = f"[{name}]" if isinstance(given, Mapping) else f"[[{name}]]"
-            raise ValueError(
-                f"{config} has {title}, of which this command uses nothing: leave it out"
-            )
-        if spare := [key for key in given if key not in keys]:
-            if not (keys and name == "motion"):
-                warn(f"{config}: this command does not use {', '.join(spare)} of [{name}]")
-            kept[name] = {key: given[key] for key in keys if key in given}
+        spare = [key for key in given if key not in keys]
+        if not spare:
+            continue
+        if name == "loads":
+            warn(f"{config}: this command does not use [[loads]]")
+            kept[name] = ()
+            continue
+        if not (keys and name == "motion"):
+            warn(f"{config}: this command does not use {', '.join(spare)} of [{name}]")
+        kept[name] = {key: given[key] for key in keys if key in given}
     return replace(file, **kept)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -56,7 +57,11 @@ def respond(
     """
     from ..datasets import response_inputs
 
-    load, blade = one_of(request.loads), request.blade
+    load: Any = one_of(request.loads)
+    blade = request.blade
+    if load.varied == "frequency" and load.frequency is not None:
+        warn("the frequency of the load is that from --from to --to, not its own")
+        load = replace(load, frequency=None)
     damping_given = {
         "damping_ratio",
         "external_damping",

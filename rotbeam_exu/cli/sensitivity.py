@@ -13,6 +13,7 @@ import analytic
 from analytic.exact.linear.families import LinearModes
 from analytic.exact.linear.steady_state import SteadyState
 from analytic.input_checks import rotation_speed, whole_number
+from analytic.warning import warn
 
 from .job import Flag, Results
 from .options import Number, Numbers, Whole
@@ -84,10 +85,7 @@ def sensitivity(
     if steady and amplitude:
         raise ValueError("--steady and --amplitude are of different answers: keep one")
     if request.loads and not steady:
-        raise ValueError(
-            f"{request.config or 'the command'} has [[loads]], which act on the steady state: "
-            "leave it out, or add --steady"
-        )
+        warn("this command does not use [[loads]] without --steady")
     blade = request.blade
     settings: Any = {"theory": request.theory, "tolerance": request.tolerance}
     kind = "steady-" if steady else "orbits-" if amplitude else ""

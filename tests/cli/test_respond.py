@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from analytic import Damping, ResponseNotReachedError
+from analytic import Damping, ResponseNotReachedError, TipForce
 from rotbeam_exu import dataset_of, load
 from rotbeam_exu.cli import respond as job
 from rotbeam_exu.runs.attributes import beam_of
@@ -154,3 +154,25 @@ def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatc
     kept = tmp_path / "response-omega-6-ripple-0.002-from-3.7-to-3.76-failed.nc"
     assert f"after 3.7 rad/s; the part that was computed is in {kept}, marked failed" in error
     assert load(kept).attrs["verdict"] == "failed: the response was not found after 3.7 rad/s"
+
+
+def test_the_load_of_a_file_is_used_at_the_frequencies_of_the_curve(
+    call, tmp_path, monkeypatch, folded
+):
+    asked = []
+
+    def computed(*arguments, **_):
+        asked.append(arguments)
+        return folded
+
+    monkeypatch.setattr(job.analytic, "forced_response", computed)
+    (tmp_path / "run.toml").write_text(
+        BLADE_TOML + '[motion]\nomega = 6\n[[loads]]\nkind = "TipForce"\n'
+        "amplitude = 0.5\nfrequency = 3.0\n"
+    )
+    options = ("--config", tmp_path / "run.toml", *RIPPLE[4:], *QUICK, "--out", tmp_path)
+    code, _, error = call("respond", *options)
+    assert (code, "is that from --from to --to, not its own" in error) == (0, True), error
+    (_, omega, force, frequencies), *_ = asked
+    assert (omega, force) == (6.0, TipForce(amplitude=0.5))
+    assert frequencies.tolist() == [3.7, 3.76]
