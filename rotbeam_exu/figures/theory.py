@@ -100,8 +100,9 @@ def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
 @paper_figure(
     shows=lambda data: (
         f"{_COEFFICIENTS} against ω by the model CE ({MODEL_NAMES['CE']}) for several "
-        f"slendernesses μ = I/(AL²); {data.attrs['held']}; {EXACT}, of the same μ in the same "
-        f"dashes, up to 0.6 of the speed that stretches it without bound."
+        f"slendernesses μ = I/(AL²); {data.attrs['held']}; dashed: "
+        f"{EXACT.removeprefix('black: ')}, of the same μ in the same color, up to 0.6 of the speed "
+        "that stretches it without bound."
     ),
     claim=(
         "The paper does not state its μ. We reproduce the shape of the curves. The elongation by a "
@@ -135,22 +136,27 @@ def _coefficients(
 
 def _rows(ax: Axes, x: xr.DataArray, rows: xr.DataArray, lines: dict[str, dict[str, Any]]) -> None:
     for (name, line), row in zip(lines.items(), rows, strict=True):
-        ax.plot(x, row, **line, label=typeset(name))
+        ax.plot(x, row, **({"label": typeset(name)} | line))
     ax.axhline(0.0, color="0.7", lw=0.5)
     ax.set_xlim(0.0, float(x[-1]))
 
 
 def _lines(names: Sequence[str]) -> dict[str, dict[str, Any]]:
-    """Return how each row is drawn: "exact, μ = ..." in black and in the dashes of "μ = ..."."""
+    """Return how each row is drawn: "exact, μ = ..." dashed, in the color of "μ = ..."."""
     lines: dict[str, dict[str, Any]] = {}
     others = [name for name in names if name not in MODEL_LINES and "exact" not in name]
-    looks = dict(zip(others, zip(ramp(len(others)), _DASHES[1:], strict=False), strict=True))
+    colors = dict(zip(others, ramp(len(others)), strict=True))
+    paired = any(name.startswith("exact, ") for name in names)
+    looks = ("-",) * len(others) if paired else _DASHES[1:]
     for name in names:
-        if name in looks:
-            lines[name] = dict(zip(("color", "ls"), looks[name], strict=True))
+        if name in colors:
+            lines[name] = {"color": colors[name], "ls": looks[others.index(name)]}
+        elif name in MODEL_LINES:
+            lines[name] = model_line(name)
         else:
-            kind, _, look = name.partition(", ")
-            lines[name] = model_line(kind) | ({"ls": looks[look][1]} if look else {})
+            of = name.removeprefix("exact, ")
+            named = "exact, of the same μ" if of == others[0] else "_"
+            lines[name] = {"color": colors[of], "ls": "--", "label": named}
     return lines
 
 
