@@ -20,6 +20,7 @@ from ...methods.orbit import Orbit
 from ...methods.system import Tangent, reciprocal_modes
 from ...settled import refined
 from ...theory import Theory, require_theory
+from ...warning import warn
 from .answers import forces_caused
 from .basis import StrainFunctions
 from .equilibrium import Equilibrium
@@ -36,6 +37,7 @@ GAUGES = {"lag": 1, "flap": 2}
 """Components of the tip's place whose peak may be called the amplitude."""
 Model = Continuum | SpaceContinuum
 _LARGEST_KICK = 0.1
+_STEEP = 0.5  # slope of fibers, whose square is left out
 _MODES = 6  # whose answers a refinement adds
 _INSTANTS = 64  # of a motion, by whose forces functions are made
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
@@ -51,7 +53,7 @@ def space_continuum(
         raise ValueError("Engesser's law of shear is known in the plane: leave engesser out")
     unit = replace(space_unit(blade), loaded=loaded(loads, blade))
     a_panel = max(4, math.ceil(functions / unit.panel_count))
-    return SpaceContinuum(
+    model = SpaceContinuum(
         StrainFunctions(
             blade=unit,
             theory=theory,
@@ -61,6 +63,22 @@ def space_continuum(
             axial=max(4, 5 * a_panel // 8),
         )
     )
+    _warn_if_steep(blade, model)
+    return model
+
+
+def _warn_if_steep(blade: Blade, model: SpaceContinuum) -> None:
+    """Warn of a twist so steep that its trapeze effect, which grows without bound, is none."""
+    strains = model.strains
+    fibers = np.abs(strains.twist) * np.sqrt(strains.trapeze)
+    if fibers.size and (steepest := float(fibers.max())) > _STEEP:
+        place = blade.length * float(model.points[fibers.argmax()])
+        warn(
+            f"at x = {place:.6g} m the twist is so steep that fibers at the radius of gyration "
+            f"slope by {steepest:.3g}: the trapeze effect of the twist is known of small slopes. "
+            "Where the twist steps take Theory(trapeze='elastic'), on the command line "
+            """--theory 'trapeze="elastic"'"""
+        )
 
 
 def leaves_plane(blade: Blade) -> bool:
