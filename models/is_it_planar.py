@@ -56,12 +56,24 @@ for ax, branch, title in zip(axes, branches, titles, strict=True):
     planar = periodic_orbits(
         branch.blade, branch.omega, np.linspace(0.0, top, 24)[1:]
     ).out_of_plane()
-    for part, look in ((planar.stable, "k-"), (~planar.stable, "k--")):
-        ax.plot(np.where(part, planar.frequency, np.nan), planar.amplitude, look)
+    ax.plot(planar.frequency, planar.amplitude, "k--", lw=1.0)
+    ax.plot(np.where(planar.stable, planar.frequency, np.nan), planar.amplitude, "k-", lw=1.6)
     ax.set_title(title, loc="left")
-flat = axes[0].plot([], [], "k-", label="planar orbits")
-axes[0].legend(handles=[*axes[0].get_legend().legend_handles, *flat], loc="lower left")
-axes[1].get_legend().remove()
+    ax.get_legend().remove()
+lag, flap, twist = ("C0", "C1", "C2")
+for ax, words in zip(
+    axes,
+    (
+        ((0.72, 0.84, "lag", lag), (0.3, 0.4, "flap", flap), (0.58, 0.57, "twist", twist),
+         (0.93, 0.92, "planar orbits", "k")),
+        ((0.47, 0.76, "lag", lag), (0.36, 0.55, "flap", flap), (0.3, 0.36, "twist", twist),
+         (0.92, 0.72, "planar orbits", "k")),
+    ),
+    strict=True,
+):  # fmt: skip
+    for x, y, word, color in words:
+        side = "right" if word.startswith("planar") else "left"
+        ax.text(x, y, word, color=color, ha=side, transform=ax.transAxes)
 
 # %%
 # The strip buckles in the spin-up to 6 rad/s in 3 s. Three codes have the same motion up to 1.5 s;
