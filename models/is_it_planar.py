@@ -60,20 +60,19 @@ for ax, branch, title in zip(axes, branches, titles, strict=True):
     ax.plot(np.where(planar.stable, planar.frequency, np.nan), planar.amplitude, "k-", lw=1.6)
     ax.set_title(title, loc="left")
     ax.get_legend().remove()
-lag, flap, twist = ("C0", "C1", "C2")
-for ax, words in zip(
-    axes,
-    (
-        ((0.72, 0.84, "lag", lag), (0.3, 0.4, "flap", flap), (0.58, 0.57, "twist", twist),
-         (0.93, 0.92, "planar orbits", "k")),
-        ((0.47, 0.76, "lag", lag), (0.36, 0.55, "flap", flap), (0.3, 0.36, "twist", twist),
-         (0.92, 0.72, "planar orbits", "k")),
-    ),
-    strict=True,
-):  # fmt: skip
-    for x, y, word, color in words:
-        side = "right" if word.startswith("planar") else "left"
-        ax.text(x, y, word, color=color, ha=side, transform=ax.transAxes)
+colors = {"lag": "C0", "flap": "C1", "twist": "C2", "planar orbits": "k"}
+places = (
+    {"lag": (0.72, 0.84), "flap": (0.3, 0.4), "twist": (0.58, 0.57), "planar orbits": (0.63, 0.92)},
+    {
+        "lag": (0.47, 0.76),
+        "flap": (0.36, 0.55),
+        "twist": (0.3, 0.36),
+        "planar orbits": (0.62, 0.72),
+    },
+)
+for ax, words in zip(axes, places, strict=True):
+    for word, place in words.items():
+        ax.text(*place, word, color=colors[word], transform=ax.transAxes)
 
 # %%
 # The strip buckles in the spin-up to 6 rad/s in 3 s. Three codes have the same motion up to 1.5 s;

@@ -120,7 +120,7 @@ def animate(
 
 
 class _Film(NamedTuple):
-    """A film to be made: its blade, name and words, and its data when asked."""
+    """A film to be made: its blade, name and words, and the function that makes its data."""
 
     blade: Blade
     name: str

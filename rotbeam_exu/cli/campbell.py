@@ -126,8 +126,7 @@ def _print(diagram: Campbell, band: FloatArray | None) -> None:
             | {name: column(row, name) for name, row in zip(names, rows, strict=True)},
             title=f"Frequencies [{unit}]",
         )
-    veered = [f"{a} → {b}" for a, b in zip(names, diagram.last_names, strict=True) if a != b]
-    if veered:
+    if veered := [title for title in diagram.titles if title not in names]:
         print_note(
             "Modes are named by their motion at the lowest speed. Where two veer they exchange it: "
             f"at {diagram.omegas[-1]:.4g} rad/s {', '.join(veered)}"

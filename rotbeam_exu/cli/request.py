@@ -226,13 +226,11 @@ def _configured(config: Path | None, uses: Sequence[str]) -> RunFile:
         spare = [key for key in given if key not in keys]
         if not spare:
             continue
-        if name == "loads":
-            warn(f"{config}: this command does not use [[loads]]")
-            kept[name] = ()
-            continue
+        whole = name == "loads"
+        kept[name] = () if whole else {key: given[key] for key in keys if key in given}
         if not (keys and name == "motion"):
-            warn(f"{config}: this command does not use {', '.join(spare)} of [{name}]")
-        kept[name] = {key: given[key] for key in keys if key in given}
+            what = "[[loads]]" if whole else f"{', '.join(spare)} of [{name}]"
+            warn(f"{config}: this command does not use {what}")
     return replace(file, **kept)
 
 

@@ -15,7 +15,8 @@ from .style import quantity, typeset
 
 T = TypeVar("T")
 
-EXACT = "black: the geometrically exact beam, by harmonic balance"
+EXACT_BEAM = "the geometrically exact beam, by harmonic balance"
+EXACT = f"black: {EXACT_BEAM}"
 
 
 class PaperFigure(NamedTuple):

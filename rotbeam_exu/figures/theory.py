@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from ..paper import MODEL_LINES, MODEL_NAMES
-from .paper_figure import EXACT, listed, paper_figure
+from .paper_figure import EXACT, EXACT_BEAM, listed, paper_figure
 from .style import (
     column,
     columns,
@@ -100,9 +100,8 @@ def figure_10(data: xr.Dataset, ax: Sequence[Axes] | None = None) -> Sequence[Ax
 @paper_figure(
     shows=lambda data: (
         f"{_COEFFICIENTS} against ω by the model CE ({MODEL_NAMES['CE']}) for several "
-        f"slendernesses μ = I/(AL²); {data.attrs['held']}; dashed: "
-        f"{EXACT.removeprefix('black: ')}, of the same μ in the same color, up to 0.6 of the speed "
-        "that stretches it without bound."
+        f"slendernesses μ = I/(AL²); {data.attrs['held']}; dashed: {EXACT_BEAM}, of "
+        "the same μ in the same color, up to 0.6 of the speed that stretches it without bound."
     ),
     claim=(
         "The paper does not state its μ. We reproduce the shape of the curves. The elongation by a "

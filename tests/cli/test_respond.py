@@ -159,10 +159,10 @@ def test_what_was_found_of_a_curve_is_kept_and_marked(call, tmp_path, monkeypatc
 def test_the_load_of_a_file_is_used_at_the_frequencies_of_the_curve(
     call, tmp_path, monkeypatch, folded
 ):
-    asked = []
+    calls = []
 
     def computed(*arguments, **_):
-        asked.append(arguments)
+        calls.append(arguments)
         return folded
 
     monkeypatch.setattr(job.analytic, "forced_response", computed)
@@ -173,6 +173,6 @@ def test_the_load_of_a_file_is_used_at_the_frequencies_of_the_curve(
     options = ("--config", tmp_path / "run.toml", *RIPPLE[4:], *QUICK, "--out", tmp_path)
     code, _, error = call("respond", *options)
     assert (code, "is that from --from to --to, not its own" in error) == (0, True), error
-    (_, omega, force, frequencies), *_ = asked
+    (_, omega, force, frequencies), *_ = calls
     assert (omega, force) == (6.0, TipForce(amplitude=0.5))
     assert frequencies.tolist() == [3.7, 3.76]

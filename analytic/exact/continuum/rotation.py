@@ -71,11 +71,11 @@ def _warn_if_steep(blade: Blade, model: SpaceContinuum) -> None:
     """Warn of a twist so steep that its trapeze effect, which grows without bound, is none."""
     strains = model.strains
     fibers = np.abs(strains.twist) * np.sqrt(strains.trapeze)
-    if fibers.size and (steepest := float(fibers.max())) > _STEEP:
+    if (steepest := float(fibers.max())) > _STEEP:
         place = blade.length * float(model.points[fibers.argmax()])
         warn(
             f"at x = {place:.6g} m the twist is so steep that fibers at the radius of gyration "
-            f"slope by {steepest:.3g}: the trapeze effect of the twist is known of small slopes. "
+            f"slope by {steepest:.3g}: the trapeze effect of the twist holds for small slopes. "
             "Where the twist steps take Theory(trapeze='elastic'), on the command line "
             """--theory 'trapeze="elastic"'"""
         )

@@ -103,6 +103,12 @@ class Campbell:
     _between: SpeedRange = field(repr=False)
     _places: list[int] = field(repr=False)
 
+    @property
+    def titles(self) -> tuple[str, ...]:
+        """The names, and where another one is the last both, as "flap 1 → lag 1"."""
+        pairs = zip(self.names, self.last_names, strict=True)
+        return tuple(first if first == last else f"{first} → {last}" for first, last in pairs)
+
     @cached_property
     def _curves(self) -> tuple[FloatArray, FloatArray]:
         """Speeds near enough for a picture, and the frequencies there, (speeds, columns)."""
@@ -152,8 +158,8 @@ class Campbell:
         kinds = [name.split()[0] for name in self.names]
         heights = apart(curves[-1], 0.045 * top)
         wide = np.zeros_like(self.frequencies) if deviations is None else 2.0 * deviations
-        for kind, name, later, row, height, band in zip(
-            kinds, self.names, self.last_names, curves.T, heights, wide.T, strict=True
+        for kind, title, row, height, band in zip(
+            kinds, self.titles, curves.T, heights, wide.T, strict=True
         ):
             if row[-1] > top:
                 continue  # leaves the frame, or never is in it
@@ -163,8 +169,7 @@ class Campbell:
                 half = np.interp(omegas, self.omegas, band)
                 ax.fill_between(omegas, row - half, row + half, color=color, alpha=0.2, lw=0.0)
             ax.annotate(
-                name if later == name else f"{name} → {later}",
-                (high, height), xytext=(4, 0), textcoords="offset points",
+                title, (high, height), xytext=(4, 0), textcoords="offset points",
                 color=line.get_color(), va="center", annotation_clip=False,
             )  # fmt: skip
         crossed = np.array([(c.omega, c.frequency) for c in met]).reshape(-1, 2)

@@ -22,6 +22,7 @@ from ..mesh import Mesh, cells
 from .energy_body import Assembly, add_force, add_mass
 from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
 from .node_kinds import FrameNodes, cross, directors, onto_parameters, require_bare, turning_rate
+from .screw import Screw, times
 
 _INNER, _ = gauss_points(2)
 """Where Exudyn integrates the inertia against rotation, with equal weights, as measured."""
@@ -114,9 +115,7 @@ class SpaceExact(Sheared, FrameNodes):
                 # In motion Newton's method does without that of viscous forces by the place.
                 parts = [(row.add.triplets(row.slope(e)), -1.0, 0.0)] if coupled else []
                 if viscous:
-                    change = row.turned_strains(row.add.gather(e))
-                    damping = np.swapaxes(change, -1, -2) @ row.viscosity @ change
-                    parts.append((row.add.triplets(damping), 0.0, -1.0))
+                    parts.append((row.add.triplets(row.viscous(e)), 0.0, -1.0))
                 return parts
 
             add_force(
@@ -234,17 +233,8 @@ class _Row:
         self.stiffness = scale * np.linalg.inv(mesh.mean(soft) / mesh.mean(weight))
         self.compliance = mesh.mean(stretched)[:, 0, 0] * L**2 / blade.bending_stiffness
         self.coupling = self.stiffness * (1.0 - np.eye(6))
-        forces = self.stiffness[:, :3]
-        free = np.linalg.inv(forces[:, :, :3])  # strains over forces where nothing bends
-        rates = np.sqrt(blade.damping.of_strains)[:, None]
-        held, acting = (
-            np.zeros_like(self.stiffness),
-            np.tile(np.diag(rates[:, 0]), (elements, 1, 1)),
-        )
-        held[:, :3, :3], acting[:, :3] = free, rates[:3] * forces
-        held[:, 3:, 3:] = (self.stiffness - np.swapaxes(forces, 1, 2) @ free @ forces)[:, 3:, 3:]
-        # Viscous resistance over the length, of forces and of moments about their centers.
-        self.viscosity = np.swapaxes(acting, 1, 2) @ held @ acting / self.lengths[:, None, None]
+        rates = np.sqrt(blade.damping.of_strains)
+        self.viscosity = _viscosity(self.stiffness, rates) / self.lengths[:, None, None]
         self.mass = mesh.sections.mass_per_length
         # Of functions of both ends; those of the mean mass are Exudyn's.
         even = np.multiply.outer(self.mass, [[2.0, 1.0], [1.0, 2.0]]) / 6.0
@@ -262,90 +252,39 @@ class _Row:
         self._unloaded: FloatArray = np.zeros(6)
         self._unloaded = self.strains(self.add.gather(self.reference.ravel()))
 
+    def _strained(self, between: Screw) -> FloatArray:
+        return between.logarithm / self.lengths[:, None] - self._unloaded
+
     def strains(self, e: FloatArray) -> FloatArray:
         """Return the strains (..., elements, 6) of coordinates (..., elements, 14)."""
-        return self._strains(*self._screws(e)[1:4])
-
-    def _strains(self, d: FloatArray, psi: FloatArray, bent: FloatArray) -> FloatArray:
-        across = cross(psi, d)
-        u = d - 0.5 * across + bent * cross(psi, across)
-        return np.concatenate((u, psi), axis=-1) / self.lengths[:, None] - self._unloaded
-
-    def _screws(self, e: FloatArray) -> tuple[FloatArray, ...]:
-        """Return frames of the ends, distance d and rotation ψ in the first, b and b'/ψ.
-
-        The logarithm in SE(3) is u = d - ψ×d/2 + b ψ×(ψ×d) and ψ, b = [1 - (ψ/2) cot(ψ/2)]/ψ².
-        """
-        q = e.reshape(*e.shape[:-1], 2, 7)
-        turn, p = directors(q[..., 3:]), q[..., 3:]
-        d = _times(np.swapaxes(turn[..., 0, :, :], -1, -2), q[..., 1, :3] - q[..., 0, :3])
-        (a, u), (b, v) = ((p[..., i, :1], p[..., i, 1:]) for i in (0, 1))
-        cosine, sine = a * b + _dot(u, v), a * v - b * u - cross(u, v)
-        sine = np.where(cosine < 0.0, -sine, sine)  # of p and -p the rotation is the same
-        size = np.maximum(np.sqrt(_dot(sine, sine)), 1e-300)
-        psi = 2.0 * np.arctan2(size, np.abs(cosine)) / size * sine
-        square = _dot(psi, psi)
-        # Of their series: below 1e-2 the rest is 1e-13 of b, and 1e-8 of its change.
-        angle = np.sqrt(np.maximum(square, 1e-4))
-        half = 0.5 * angle
-        bent = (1.0 - half / np.tan(half)) / angle**2
-        change = ((half / np.sin(half)) ** 2 + half / np.tan(half) - 2.0) / angle**4
-        small = square < 1e-4
-        return (
-            turn, d, psi, np.where(small, (1.0 + square / 60.0) / 12.0, bent),
-            np.where(small, 1.0 / 360.0 + square / 7560.0, change),
-        )  # fmt: skip
+        return self._strained(Screw.of(e))
 
     def coupled_energy(self, coordinates: FloatArray) -> FloatArray:
         """Return the energy (samples,) of the stiffness off the diagonal, ½ l ε·C ε."""
         strain = self.strains(self.add.gather(coordinates.reshape(len(coordinates), -1)))
-        stress = _times(self.coupling, strain)
+        stress = times(self.coupling, strain)
         return np.asarray(0.5 * np.sum(strain * stress, axis=-1) @ self.lengths)
 
     def own_force(self, e: FloatArray, rates: FloatArray | None = None) -> FloatArray:
         """Return the gradient (..., elements, 14) of the same and, with rates, viscous forces."""
-        screws = self._screws(e)
-        stress = _times(self.coupling, self._strains(*screws[1:4]))
+        between = Screw.of(e)
+        stress = times(self.coupling, self._strained(between))
         if rates is None:
-            return self._onto_ends(e, screws, stress)
-        change = self.turned_strains(e, screws)
-        stress += _times(self.viscosity, _times(change, rates))
-        return _times(np.swapaxes(change, -1, -2), stress)
+            return between.onto_ends(stress)
+        change = between.slopes()
+        stress += times(self.viscosity, times(change, rates))
+        return times(np.swapaxes(change, -1, -2), stress)
 
-    def _onto_ends(
-        self, e: FloatArray, screws: tuple[FloatArray, ...], stress: FloatArray
-    ) -> FloatArray:
-        """Return the forces (..., elements, 14) of stresses: l ∂ε/∂e from the left."""
-        turn, d, psi, bent, change = screws
-        n, m = stress[..., :3], stress[..., 3:]
-        once = cross(psi, n)
-        twice = cross(psi, once)
-        force = n + 0.5 * once + bent * twice
-        m = m - 0.5 * cross(d, n) + change * _dot(twice, d) * psi
-        m = m + bent * (_dot(psi, d) * n + _dot(psi, n) * d - 2.0 * _dot(d, n) * psi)
-        once = cross(psi, m)
-        end = m - 0.5 * once + bent * cross(psi, once)
-        start = cross(force, d)
-        start -= _times(np.swapaxes(turn[..., 0, :, :], -1, -2), _times(turn[..., 1, :, :], end))
-        along = _times(turn[..., 0, :, :], force)
-        p = e.reshape(*e.shape[:-1], 2, 7)[..., 3:]
-        torques = onto_parameters(p, np.stack((start, end), axis=-2))
-        both = np.concatenate((np.stack((-along, along), axis=-2), torques), axis=-1)
-        return both.reshape(*both.shape[:-2], 14)
-
-    def turned_strains(
-        self, e: FloatArray, screws: tuple[FloatArray, ...] | None = None
-    ) -> FloatArray:
-        """Return l ∂ε/∂e, (..., elements, 6, 14)."""
-        screws = screws or self._screws(e)
-        units = np.eye(6).reshape(6, *(e.ndim - 1) * [1], 6)
-        return np.moveaxis(self._onto_ends(e, screws, units), 0, -2)
+    def viscous(self, e: FloatArray) -> FloatArray:
+        """Return the derivative (elements, 14, 14) of the viscous forces by the rates."""
+        change = Screw.of(self.add.gather(e)).slopes()
+        return np.asarray(np.swapaxes(change, -1, -2) @ self.viscosity @ change)
 
     def dissipation(self, coordinates: FloatArray, velocities: FloatArray) -> FloatArray:
         """Return the power (samples,) that viscosity takes."""
         e, rates = (self.add.gather(v.reshape(len(v), -1)) for v in (coordinates, velocities))
-        rate = _times(self.turned_strains(e), rates)
-        return np.asarray(np.sum(rate * _times(self.viscosity, rate), axis=(-2, -1)))
+        rate = times(Screw.of(e).slopes(), rates)
+        return np.asarray(np.sum(rate * times(self.viscosity, rate), axis=(-2, -1)))
 
     def slope(self, e: FloatArray) -> FloatArray:
         """Return the derivative (elements, 14, 14) of `own_force` at rest at all coordinates."""
@@ -379,17 +318,26 @@ class _Row:
         turn, spin, inertia = self.turning(e, rates)
         W, W_dot = np.array([[0.0, 0.0, w], [0.0, 0.0, w_dot]])
 
-        def times(vector: FloatArray) -> FloatArray:
-            return np.asarray((inertia @ vector[..., None])[..., 0])
-
-        torque = cross(spin, times(spin)) - cross(spin + W, times(spin + W))
-        torque -= times(W_dot + cross(W, spin))
+        torque = cross(spin, times(inertia, spin)) - cross(spin + W, times(inertia, spin + W))
+        torque -= times(inertia, W_dot + cross(W, spin))
         ends = 0.5 * self.lengths[:, None, None] * _VALUES.T @ torque
         p = e.reshape(*e.shape[:-1], 2, 7)[..., 3:]
         local = (np.swapaxes(turn, -1, -2) @ ends[..., None])[..., 0]
         forces = np.zeros((*p.shape[:-1], 7))
         forces[..., 3:] = onto_parameters(p, local)
         return forces.reshape(*e.shape[:-1], 14)
+
+
+def _viscosity(stiffness: FloatArray, rates: FloatArray) -> FloatArray:
+    """Return the viscous resistance (elements, 6, 6) to rates of strains, by the six √η.
+
+    As of the exact blade: of forces, and of moments about the centers of tension and shear.
+    """
+    forces, root = stiffness[:, :3], np.diag(rates)
+    free = np.linalg.inv(forces[:, :, :3])  # strains over forces where nothing bends
+    resisting = np.swapaxes(forces, 1, 2) @ root[:3, :3] @ free @ root[:3, :3] @ forces
+    bends = stiffness - np.swapaxes(forces, 1, 2) @ free @ forces  # of curvatures alone
+    return np.asarray(resisting + root @ bends @ root)
 
 
 def _halfway(unit: SpaceUnit, ends: FloatArray, sections: FloatArray) -> FloatArray:
@@ -415,13 +363,3 @@ def _rotation_vector(turn: FloatArray) -> FloatArray:
     """Return the rotation vectors (..., 3) of rotations (..., 3, 3)."""
     flat = spatial.transform.Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_rotvec()
     return np.asarray(flat.reshape(turn.shape[:-1]))
-
-
-def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return a · b of vectors (..., 3), (..., 1)."""
-    return np.asarray(np.einsum("...i,...i->...", a, b)[..., None])
-
-
-def _times(matrix: FloatArray, vector: FloatArray) -> FloatArray:
-    """Return matrices (..., n, n) times vectors (..., n)."""
-    return np.asarray((matrix @ vector[..., None])[..., 0])
