@@ -76,7 +76,7 @@ class Blade(BladeData):
         Parameters
         ----------
         x : array_like (stations,)
-            From the clamp, 0, to the tip [m].
+            From the clamp, 0, to the tip [m]. Two at one place are a step.
         stiffness : array_like (stations, 6) or (stations, 6, 6)
             EA [N], GA2, GA3 [N], GJ, EI2 (flap) and EI3 (lag) [N m²], or matrices. A theory without
             shear does not use GA2 and GA3: give EA where they are not known.

@@ -20,6 +20,7 @@ from .arrays import FloatArray, Profile, stations
 from .warning import RotbeamWarning as RotbeamWarning  # noqa: PLC0414  (everyone has it from here)
 from .warning import warn
 
+_STEP = 1e-9  # of the span: narrower changes no frequency beyond 1e-8
 _BEYOND_THE_ENDS = 1e-12  # of the length: what round-off puts a point of the beam outside it
 _FAINTEST = 1e-4  # |q|/L below which round-off hides what is nonlinear: a² times ten digits
 _SOUND = 30.0, 2e4  # [m/s], in rubber and in diamond: all solids are between
@@ -246,14 +247,25 @@ def along(name: str, values: object, count: int, unit: str) -> FloatArray:
     return np.broadcast_to(array, count)
 
 
-def require_ascending(name: str, values: Iterable[float], unit: str, where: str = "") -> None:
+def require_ascending(name: str, values: Iterable[float], unit: str) -> None:
     """Refuse numbers of which one is not above the one before it."""
     for before, after in itertools.pairwise(values):
         if after <= before:
             raise ValueError(
                 f"{name} must ascend, but {after:g} {unit} comes after {before:g} {unit}: sort "
-                f"them, and {where}set equal ones apart"
+                "them, and set equal ones apart"
             )
+
+
+def stepped(name: str, values: ArrayLike) -> list[float]:
+    """Return ascending stations [m]; two at one place are a step, 1e-9 of their span wide."""
+    at = np.array(values, dtype=np.float64)
+    same, width = np.diff(at) == 0.0, _STEP * (at[-1] - at[0])
+    at[1:][same] += width
+    if same[-1:].any():
+        at[-2:] -= width  # the blade ends where it did
+    require_ascending(name, at, "m")
+    return at.tolist()
 
 
 def times_from_rest(times: object) -> FloatArray:
@@ -326,8 +338,8 @@ def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
         raise ValueError(
             f"{name} has one station, at {pairs[0][0]:g} m: give two at least, or a number"
         )
-    require_ascending(f"the stations of {name}", [x for x, _ in pairs], "m", "where it steps, ")
-    return tuple(pairs)
+    at = stepped(f"the stations of {name}", [x for x, _ in pairs])
+    return tuple((x, value) for x, (_, value) in zip(at, pairs, strict=True))
 
 
 def _is_sequence(value: object) -> bool:

@@ -17,6 +17,7 @@ from .input_checks import (
     flag,
     not_negative,
     require_ascending,
+    stepped,
     three_numbers,
 )
 from .lazily import interpolate
@@ -206,8 +207,7 @@ class LoadTable(SpanLoad):
                 f"x must be two stations or more from the clamp on, got {x.size} from {x[0]:g} m: "
                 "give a load on a single one as a PointLoad"
             )
-        require_ascending("x", x, "m")
-        self._keep(x=tuple(x.tolist()))
+        self._keep(x=tuple(stepped("x", x)))
         instants = ()
         if self.time is not None:
             time = finite_values("time", self.time, "s")

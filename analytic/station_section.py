@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, Profile, profile_at
-from .input_checks import finite_array, finite_values, require_ascending, require_offset, shown
+from .input_checks import finite_array, finite_values, require_offset, shown, stepped
 from .section import OutOfPlane, Section
 from .theory import Theory
 
@@ -113,7 +113,7 @@ def section_of_table(
             f"x must be two stations or more from 0 to the length, got {at.size} from {at[0]:g} to "
             f"{at[-1]:g} m"
         )
-    require_ascending("x", at.tolist(), "m")
+    at = np.array(stepped("x", at))
     places = {name: _offsets(name, values, at) for name, values in centers.items()}
     S, M = _table("stiffness", stiffness, STIFFNESSES, at), _table("mass", mass, MASSES, at)
     for name, table in (("tension", S), ("shear", S), ("center", M)):

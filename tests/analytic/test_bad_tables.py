@@ -55,6 +55,7 @@ def test_a_table_of_stations_with_a_fault(table, name, kind, place):
         ({"twist": [0.2, 0.1]}, r"twist must be one number in rad, or one at each of the 3 stat"),
         ({"x": X[:2]}, "at each of the 2 stations"),
         ({"x": [0.0, 8.0, 3.0]}, "x must ascend, but 3 m comes after 8 m"),
+        ({"x": [0.0, 0.0, 0.0]}, "x must ascend, but 0 m comes after 0 m"),
         ({"x": [X, X]}, "x must be a sequence of numbers"),
         ({"x": [0.0]}, "x must be two stations or more from 0 to the length, got 1 from 0 to 0 m"),
         ({"stiffness": PLAIN.stiffness}, "tension is a center of columns, and 6x6 matrices have"),

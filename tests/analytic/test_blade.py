@@ -229,8 +229,8 @@ def test_bad_blades_are_refused(make, sentence):
     ("profile", "sentence"),
     [
         (((0.0, 1.0), (0.5, 1.0), (0.4, 1.0)), "ascend, but 0.4 m comes after 0.5 m: sort them"),
-        (((0.0, 1.0), (0.5, 1.0), (0.5, 2.0), (1.0, 2.0)),
-         "0.5 m comes after 0.5 m: sort them, and where it steps, set equal ones apart"),
+        (((0.0, 1.0), (0.5, 1.0), (0.5, 2.0), (0.5, 3.0), (1.0, 2.0)),
+         "0.5 m comes after 0.5 m: sort them, and set equal ones apart"),
         (((0.0, 1.0),), "has one station, at 0 m: give two at least, or a number"),
         (((0.0, 1.0), (0.5, math.nan), (1.0, 1.0)), "NaN: leave the station out if its cell is"),
         (((0.0, 1.0), (math.inf, 1.0)), "bending_stiffness\\[1\\] must be finite, got inf m"),

@@ -206,6 +206,24 @@ def test_a_step_of_the_section_is_the_limit_of_a_steep_slope():
     assert errors[0] / errors[1] == pytest.approx(2.0, abs=0.05)
 
 
+@pytest.mark.parametrize("at", [0.5, 0.37])
+def test_two_stations_at_one_place_are_a_step(at):
+    exact = shot([(at, 1.0), (1.0 - at, 0.4)], [(0.0, 0.0)] * 2)[:3]
+    ends, EI = [0.0, at, at, 1.0], np.array([1.0, 1.0, 0.4, 0.4])
+    section = Section(
+        axial_stiffness=1e9, mass_per_length=1.0, bending_stiffness=list(zip(ends, EI, strict=True))
+    )
+    planar = Blade(length=1.0, section=section)
+    found = linear_modes(planar, 0.0, 3, theory=Theory(extension=False)).frequencies
+    assert found == pytest.approx(exact, rel=2e-8)  # the step is 1e-9 wide, where EI is less
+
+    # In space the round section has each of these frequencies twice, but for its stretch.
+    stiffness = np.stack([np.full(4, 1e9)] * 3 + [EI] * 3, axis=1)
+    blade = Blade.from_stations(ends, stiffness, [[1.0, 1e-9, 5e-10, 5e-10]] * 4)
+    pairs = linear_modes(blade, 0.0, 6, tolerance=1e-8).frequencies
+    assert pairs == pytest.approx(np.repeat(exact, 2), rel=1e-7)
+
+
 def test_softening_with_a_mass_inside_is_that_of_the_orbits():
     blade = UNIT.with_point_mass(0.3, 0.6).with_hub_radius(0.5)
     frm = reduced_model(blade, 3.0, "FrM")
