@@ -257,7 +257,7 @@ def require_ascending(name: str, values: Iterable[float], unit: str) -> None:
             )
 
 
-def stepped(name: str, values: ArrayLike) -> list[float]:
+def stepped(name: str, values: ArrayLike) -> FloatArray:
     """Return ascending stations [m]; two at one place are a step, 1e-9 of their span wide."""
     at = np.array(values, dtype=np.float64)
     same, width = np.diff(at) == 0.0, _STEP * (at[-1] - at[0])
@@ -265,7 +265,7 @@ def stepped(name: str, values: ArrayLike) -> list[float]:
     if same[-1:].any():
         at[-2:] -= width  # the blade ends where it did
     require_ascending(name, at, "m")
-    return at.tolist()
+    return at
 
 
 def times_from_rest(times: object) -> FloatArray:
@@ -338,7 +338,7 @@ def checked_profile(name: str, profile: object, unit: str = "") -> Profile:
         raise ValueError(
             f"{name} has one station, at {pairs[0][0]:g} m: give two at least, or a number"
         )
-    at = stepped(f"the stations of {name}", [x for x, _ in pairs])
+    at = stepped(f"the stations of {name}", [x for x, _ in pairs]).tolist()
     return tuple((x, value) for x, (_, value) in zip(at, pairs, strict=True))
 
 

@@ -207,7 +207,7 @@ class LoadTable(SpanLoad):
                 f"x must be two stations or more from the clamp on, got {x.size} from {x[0]:g} m: "
                 "give a load on a single one as a PointLoad"
             )
-        self._keep(x=tuple(stepped("x", x)))
+        self._keep(x=tuple(stepped("x", x).tolist()))
         instants = ()
         if self.time is not None:
             time = finite_values("time", self.time, "s")

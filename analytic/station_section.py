@@ -113,7 +113,7 @@ def section_of_table(
             f"x must be two stations or more from 0 to the length, got {at.size} from {at[0]:g} to "
             f"{at[-1]:g} m"
         )
-    at = np.array(stepped("x", at))
+    at = stepped("x", at)
     places = {name: _offsets(name, values, at) for name, values in centers.items()}
     S, M = _table("stiffness", stiffness, STIFFNESSES, at), _table("mass", mass, MASSES, at)
     for name, table in (("tension", S), ("shear", S), ("center", M)):

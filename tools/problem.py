@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from analytic import Beam
-from rotbeam_exu.verification.case import TIP, Case
+from rotbeam_exu.verification.case import Case
 from rotbeam_exu.verification.cases import CASES, VERSION
 from rotbeam_exu.verification.judgement import THRESHOLDS
 from rotbeam_exu.verification.kit import STATIC, row_of
@@ -57,7 +57,7 @@ def _looked_at() -> list[dict[str, Any]]:
     """Return numbers of the cases in space, to look at before the first judgement."""
     found: list[dict[str, Any]] = []
     for case in CASES.values():
-        if case.columns != TIP:
+        if not case.in_space:
             continue
         truth = reference(case)
         at = case.speeds[-1:] or (5.0, 15.0)

@@ -194,10 +194,15 @@ def _start(
     """Return coordinates and velocities in the frame of the clamp, unless it starts straight."""
     turning = case.ramp_time and getattr(case.spin_up, "start", 0.0)
     if initial_state is None and turning:
+        require_planar(case.blade)
         initial_state = partial(stretched_state, case.blade, turning)
     if initial_state is None:
         return None
-    require_planar(case.blade)
+    if case.blade.line.kinks:
+        raise ValueError(
+            "initial_state is of a blade without kinks, for a node there has a section between "
+            "those of both sides: leave it out, and the blade starts straight"
+        )
     nodes = (len(reference) - 1) // case.elements + 1
     mesh = Mesh(blade=case.blade, elements=case.elements, nodes_of_element=nodes)
     state = initial_state(mesh.places)
@@ -211,9 +216,17 @@ def _start(
                     f"the {name} of initial_state is up to {largest:.3g}: take "
                     "element='space_exact'"
                 )
-    state = units.state(state)
-    state = replace(state, place=state.place + case.blade.unit.hub * np.eye(3)[0])
-    return case.model.coordinates(state)
+    state, model = units.state(state), case.model
+    blade = units.blade(case.blade)
+    frame = np.eye(3)
+    if model.leaves_plane:
+        frame = model.line_frame(blade)
+    # The hub is in the plane of rotation, out of which the precone lifts the blade.
+    state = state.seen_from(frame.T)
+    state = replace(state, place=state.place + blade.unit.hub * np.eye(3)[0])
+    at, moving = model.coordinates(state)
+    arms = -model.arms(blade, case.elements)  # from the line to the nodes
+    return model.line(arms, at), model.line(arms, at, moving)
 
 
 def _checked(run: xr.Dataset, cause: BaseException | None) -> xr.Dataset:

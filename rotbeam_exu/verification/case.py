@@ -1,7 +1,8 @@
 """A case of the benchmark: a blade, its motion and loads, and the quantity asked for.
 
 A case answers for its kind: the columns of its histories, the theory and the modes of its
-reference, and the usual slips in the tip. A kind is a class: `Case` in the plane, `SpaceCase`.
+reference, and the usual slips in the tip. A kind is a class: `Case` in the plane, `SpaceCase`, and
+`TableCase` of a real blade.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from analytic import Blade, SteadyRotation, linear_modes, periodic_orbits
+from analytic import Blade, SteadyRotation, linear_modes, periodic_orbits, steady_state
 from analytic.arrays import FloatArray
 from analytic.exact.continuum.state import BladeState
 from analytic.exact.linear.modes import driven_modes
@@ -25,7 +26,9 @@ from analytic.motion import SpeedChange
 from analytic.theory import BERNOULLI_EULER, Theory
 
 if TYPE_CHECKING:
+    from analytic.exact.driven.response import SpinUpResponse
     from analytic.exact.free.orbits import Orbits
+    from analytic.exact.linear.families import LinearModes
 
 
 class Level(StrEnum):
@@ -36,6 +39,7 @@ class Level(StrEnum):
     HARD = "hard"
     BLADE = "blade"
     SPACE = "space"
+    REAL = "real blade"
 
 
 class Asked(StrEnum):
@@ -49,6 +53,9 @@ class Asked(StrEnum):
 
 TIP = ("lag", "flap", "twist")
 """The tip in space, as `SpinUpResponse` has it: two places [m], and the section's turn [rad]."""
+
+ROOT = ("root_moment_x", "root_moment_y", "root_moment_z")
+"""Moment of the blade on the clamp [N m], in the axes of the clamp, as runs of Exudyn have it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +85,8 @@ class Case:
     loads : tuple
     kick : float
         Speed of the tip out of the plane at t = 0 [m/s], as `spin_up_response` has it.
+    settled : bool
+        Whether a history starts in equilibrium under its loads, at rest.
     oscillates : bool
         Whether the history ends in a steady oscillation, whose amplitude and frequency are judged.
     theories : tuple of Theory
@@ -85,7 +94,7 @@ class Case:
     columns : tuple of str
         Columns of its histories besides the time.
     sizes : tuple of float
-        Units of the tip, to which errors are small: lengths, and one radian.
+        Units of the columns, to which errors are small: lengths, one radian, a moment.
     is_quick : bool
         Whether theory answers in a second or two, so that mistakes are planted into it.
     slips : dict
@@ -103,6 +112,7 @@ class Case:
     amplitudes: tuple[float, ...] = ()
     loads: tuple[Load, ...] = ()
     kick: float = 0.0
+    settled: bool = False
     oscillates: bool = False
     count: int = 1
     theories: tuple[Theory, ...] = (BERNOULLI_EULER,)
@@ -118,6 +128,7 @@ class Case:
                 )
 
     columns: ClassVar[tuple[str, ...]] = ("q",)
+    in_space: ClassVar[bool] = False
     is_quick: ClassVar[bool] = True
 
     @property
@@ -140,9 +151,19 @@ class Case:
         """Return the theory by which a code is judged that declares one."""
         return replace(declared, trapeze=True)  # which the plane does not know
 
-    def frequencies(self, speed: float, theory: Theory) -> FloatArray:
-        """Return the exact natural frequencies [rad/s] at a speed [rad/s], (count,)."""
-        return driven_modes(self.blade, speed, self.count, theory=theory).frequencies
+    def modes(self, speed: float, theory: Theory) -> LinearModes:
+        """Return the exact modes that are asked for at a speed [rad/s]."""
+        return driven_modes(self.blade, speed, self.count, theory=theory)
+
+    def handed(self, response: SpinUpResponse) -> FloatArray:
+        """Return what a spin-up would hand in: q (samples,), of several columns (samples, n)."""
+        return self.joined([getattr(response, name) for name in self.columns])
+
+    def error_of(self, response: SpinUpResponse, coarser: Callable[[], SpinUpResponse]) -> float:
+        """Return the relative error of a spin-up, of its worst column."""
+        # It is over the largest of q and flap, to which all columns are small.
+        sizes = np.abs(self.handed(response)).max(axis=0) / self.sizes
+        return response.error * float(sizes.max() / sizes.min())
 
     def joined(self, tip: Sequence[FloatArray] | FloatArray) -> FloatArray:
         """Return the columns of a history as one array: q (samples,), of several (samples, n)."""
@@ -191,6 +212,9 @@ class Case:
         """State at material points x [m] at t = 0; None of a beam that starts straight, at rest."""
         if self.kick:
             return partial(kicked_state, self.blade, self.kick)
+        if self.settled:
+            theory = self.theory_of(self.theories[-1])
+            return steady_state(self.blade, 0.0, loads=self.loads, theory=theory).state
         return None if self.is_spun_up else partial(self.orbit.state, 0)
 
     def whole_duration(self, step: float) -> float:
@@ -214,6 +238,7 @@ class SpaceCase(Case):
     """A task of a blade that flaps and twists as well: its histories are those of `TIP`."""
 
     columns: ClassVar[tuple[str, ...]] = TIP
+    in_space: ClassVar[bool] = True
     is_quick: ClassVar[bool] = False
 
     @property
@@ -238,9 +263,55 @@ class SpaceCase(Case):
         """
         return replace(declared, rotary_inertia=True, trapeze=False, engesser=False)
 
-    def frequencies(self, speed: float, theory: Theory) -> FloatArray:
-        """Return the exact natural frequencies [rad/s] of all motions at a speed, (count,)."""
-        return linear_modes(self.blade, speed, self.count, theory=theory).frequencies
+    def modes(self, speed: float, theory: Theory) -> LinearModes:
+        """Return the exact modes of all motions at a speed [rad/s]."""
+        return linear_modes(self.blade, speed, self.count, theory=theory)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TableCase(SpaceCase):
+    """A task of a real blade, by 6x6 matrices at stations: histories have the root's moment too.
+
+    `table` names the file of its stations.
+    """
+
+    table: str
+    columns: ClassVar[tuple[str, ...]] = (*TIP, *ROOT)
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        """Those of the tip, and EI/L at the root."""
+        return (*super().sizes, *3 * [self.blade.bending_stiffness / self.blade.length])
+
+    @property
+    def slips(self) -> Mapping[str, tuple[str, Sequence[float]]]:
+        """Those of the tip, and of the moment its sign and the largest of its units."""
+        moment = "the root's moment is"
+        return {
+            **{name: (said, (*of, 1.0, 1.0, 1.0)) for name, (said, of) in super().slips.items()},
+            "sign of the moment": (
+                f"{moment} that of the clamp on the blade: hand in that on the clamp",
+                (1.0, 1.0, 1.0, -1.0, -1.0, -1.0),
+            ),
+            "kN m": (f"{moment} in kN m: hand it in in N m", (1.0, 1.0, 1.0, 1e-3, 1e-3, 1e-3)),
+        }  # fmt: skip
+
+    def theory_of(self, declared: Theory) -> Theory:
+        """Return the theory by which a code is judged: stations have a shear stiffness."""
+        return replace(super().theory_of(declared), shear=bool(declared.shear))
+
+    def handed(self, response: SpinUpResponse) -> FloatArray:
+        """Return the tip and the moment of the blade on the clamp, (samples, 6)."""
+        root = response.section_loads([0.0])
+        moment = root.section[:, 0] @ root.moment[:, 0, :, None]
+        tip = self.joined([getattr(response, name) for name in TIP])
+        return np.concatenate((tip, moment[..., 0]), axis=1)
+
+    def error_of(self, response: SpinUpResponse, coarser: Callable[[], SpinUpResponse]) -> float:
+        """Return the change from a coarser solution: moments have larger errors than the tip."""
+        q = self.handed(response)
+        change = np.abs(self.handed(coarser()) - q).max(axis=0)
+        return float((change / np.abs(q).max(axis=0)).max())
 
 
 def _is_weight(load: Load) -> bool:

@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
+
+import numpy as np
 
 from analytic import Beam, Blade, Damping, Ellipse, Gravity, SpinUp, SteadyRotation, Tube
 from analytic.theory import BERNOULLI_EULER, Theory
 
-from .case import Asked, Case, Level, SpaceCase
+from .case import Asked, Case, Level, SpaceCase, TableCase
 
-VERSION = "1.1"
+VERSION = "1.2"
 """Version of the benchmark: the first number of its thresholds, the second of its list of cases."""
 
 
@@ -96,6 +99,7 @@ def _cases() -> tuple[Case, ...]:
         ),
         *_stout(blade),
         *_in_space(),
+        *_of_tables(),
     )  # fmt: skip
 
 
@@ -148,6 +152,54 @@ def _in_space() -> tuple[Case, ...]:
             blade=Beam.reference().with_shape(Tube()), motion=SpinUp(omega=6.0, ramp_time=3.0),
         ),
     )  # fmt: skip
+
+
+BLADES = Path(__file__).parent / "data" / "kit" / "blades"
+"""Tables of the real blades, as the kit has them."""
+
+
+def blade_of_table(name: str) -> Blade:
+    """Return the blade of a table: x, twist, curvatures, and 6x6 matrices linear in between."""
+    x, twist, prebend, sweep, *upper = np.loadtxt(
+        BLADES / f"{name}.csv", delimiter=",", skiprows=2
+    ).T
+    at, (row, column) = np.array(upper).T, np.triu_indices(6)
+    stiffness, mass = matrices = np.zeros((2, x.size, 6, 6))
+    for of, values in zip(matrices, np.split(at, 2, axis=1), strict=True):
+        of[:, row, column] = of[:, column, row] = values
+    blade = Blade.from_stations(x, stiffness, mass, twist=twist, interpolation="matrix")
+    if prebend.any():
+        blade = blade.with_prebend(tuple(zip(x, prebend, strict=True)))
+    return blade.with_sweep(tuple(zip(x, sweep, strict=True))) if sweep.any() else blade
+
+
+def _of_tables() -> tuple[Case, ...]:
+    """Return the cases of NREL's 5 MW and IEA Wind's 15 MW blades, to their rated speeds."""
+
+    def of(table: str, hub: float, precone: float, rated: float) -> tuple[Case, ...]:
+        blade = blade_of_table(table).with_hub_radius(hub).with_precone(precone)
+        case = partial(
+            TableCase, level=Level.REAL, blade=blade, table=table,
+            theories=(BERNOULLI_EULER, Theory(shear=SHEAR)),
+        )  # fmt: skip
+        speeds = (0.0, 0.5 * rated, rated)
+        return (
+            case(
+                name=f"F+{table}", title="six modes of a real blade", asked=Asked.FREQUENCIES,
+                speeds=speeds, count=6,
+            ),
+            case(
+                name=f"G+{table}", title="its sag under weight, turning", asked=Asked.STEADY,
+                speeds=speeds, loads=(Gravity(9.81, tilt=0.5 * math.pi),),
+            ),
+            case(
+                name=f"W+{table}", title="its run-up under weight, with the root's moment",
+                asked=Asked.HISTORY, motion=SpinUp(omega=rated, ramp_time=10.0), duration=20.0,
+                loads=(Gravity(9.81),), settled=True,
+            ),
+        )  # fmt: skip
+
+    return *of("N", 1.5, -0.0436332, 1.267), *of("I", 3.960329, -0.0625963, 0.7917)
 
 
 CASES = {case.name: case for case in _cases()}

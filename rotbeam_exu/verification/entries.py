@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from analytic import Blade
+from analytic import Blade, steady_state
 from analytic.arrays import FloatArray
 
 from ..fem.elements import (
@@ -80,7 +80,8 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
     def steady_tip(case: Case, omega: float, elements: int) -> FloatArray:
         frame_of(case.blade)
         linear = Linearization.of(case.blade, omega, model, elements, weight=case.loads)
-        return np.array([*(case.blade.length * linear.tip[1:]), linear.twist])
+        place = steady_state(case.blade, 0.0).tip + case.blade.length * linear.tip
+        return np.array([*place[1:], linear.twist])
 
     return Entry(
         name=" ".join([model.name, *options]),

@@ -16,14 +16,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import Blade, Damping, Gravity, PointMass, Section, SpinUp, SteadyRotation
-from analytic.arrays import FloatArray
+from analytic import (
+    Blade,
+    Damping,
+    Gravity,
+    PointMass,
+    Section,
+    SpinUp,
+    SteadyRotation,
+    steady_state,
+)
+from analytic.arrays import FloatArray, stations
 from analytic.input_checks import finite_array
 from analytic.motion import Motion
 
 from ..files.results import whole_file
-from .case import Asked, Case
-from .cases import CASES, VERSION
+from .case import Asked, Case, TableCase
+from .cases import CASES, VERSION, blade_of_table
 from .judgement import THRESHOLDS
 from .references import reference
 from .submission_files.runs import FARTHEST
@@ -85,6 +94,8 @@ def kit_files() -> dict[str, bytes]:
         if case.amplitudes
         for elements in MESHES
     }
+    tables = {case.table: case.blade for case in CASES.values() if isinstance(case, TableCase)}
+    texts |= {f"blades/{table}_line.csv": _line(blade) for table, blade in tables.items()}
     texts["reference_S1.csv"] = _self_check(CASES["S1"])
     files |= {name: text.encode() for name, text in texts.items()}
     sums = [f"{hashlib.sha256(files[name]).hexdigest()}  {name}\n" for name in sorted(files)]
@@ -136,6 +147,18 @@ def start_table(case: Case, places: ArrayLike) -> str:
     return _table(said, positions | slopes | rates | slope_rates)
 
 
+def _line(blade: Blade) -> str:
+    """Return places and sections of an unloaded blade, at its stations and three points between."""
+    at = np.array(stations(blade.line.twist))
+    x = np.interp(np.arange(4 * at.size - 3) / 4.0, np.arange(at.size), at)
+    unloaded = steady_state(blade, 0.0).section_loads(x)
+    columns = {"x": x} | dict(zip(("X", "Y", "Z"), unloaded.place.T, strict=True))
+    for axis, of in enumerate(np.moveaxis(unloaded.section, -1, 0), 1):
+        columns |= {f"{name}{axis}": value for name, value in zip("XYZ", of.T, strict=True)}
+    said = "the unloaded blade in the clamp's frame: m, and axes 1, 2, 3 of its sections"
+    return _table(said, columns)
+
+
 def _self_check(case: Case) -> str:
     time, truth = _times(case), reference(case)
     said = f"case {case.name}: the reference, within {truth.bound:.0e} of max|q|; s, m, m/s"
@@ -169,18 +192,21 @@ def row_of(case: Case) -> dict[str, Any]:
     """
     blade, motion = case.blade, case.motion
     section, out_of_plane = blade.section, blade.section.out_of_plane
+    table = case.table if isinstance(case, TableCase) else None
     gravity = next((one for one in case.loads if isinstance(one, Gravity)), Gravity(0.0))
     row = {
         "id": case.name,
         "level": str(case.level),
         "asked": case.asked.name.lower(),
+        "stations": table and f"blades/{table}.csv",
         "L": blade.length,
-        "EA": section.axial_stiffness,
-        "EI": section.bending_stiffness,
-        "rhoA": section.mass_per_length,
+        "EA": None if table else section.axial_stiffness,
+        "EI": None if table else section.bending_stiffness,
+        "rhoA": None if table else section.mass_per_length,
         "EI_flap/EI": out_of_plane.bending_ratio if out_of_plane else None,
         "GJ/EI": out_of_plane.torsion_ratio if out_of_plane else None,
-        "twist": float(np.max(blade.line.twist)),  # which grows from 0 at the clamp
+        # It grows from 0 at the clamp.
+        "twist": None if table else float(np.max(blade.line.twist)),
         "precone": blade.line.precone,
         "hub_radius": blade.hub_radius,
         "tip_mass": blade.point_masses[0].mass if blade.point_masses else 0.0,
@@ -188,6 +214,7 @@ def row_of(case: Case) -> dict[str, Any]:
         "gravity": gravity.gravity,
         "gravity_tilt": gravity.tilt,
         "kick": case.kick,
+        "start": "equilibrium" if case.settled else None,
         "omega": motion.omega if motion else None,
         "T": case.ramp_time or None if motion else None,
         "duration": case.duration or None,
@@ -207,15 +234,18 @@ def row_of(case: Case) -> dict[str, Any]:
 
 def _read_back(row: dict[str, Any]) -> dict[str, Any]:
     """Return the fields of the blade, motion and loads as a reader of a row takes them."""
-    # A cell holds a number: what changes along the blade is not told.
-    EA, EI, rhoA = (float(np.ravel(row[name])[0]) for name in ("EA", "EI", "rhoA"))
-    section = Section(axial_stiffness=EA, bending_stiffness=EI, mass_per_length=rhoA)
     mass, gravity = row["tip_mass"], Gravity(row["gravity"], tilt=row["gravity_tilt"])
-    blade = Blade(
-        length=row["L"], section=section, hub_radius=row["hub_radius"],
-        point_masses=(PointMass(position=row["L"], mass=mass),) if mass else (),
-        damping=Damping(bending=row["bending_damping"]),
-    )  # fmt: skip
+    if row["stations"]:
+        blade = blade_of_table(Path(row["stations"]).stem).with_hub_radius(row["hub_radius"])
+    else:
+        # A cell holds a number: what changes along the blade is not told.
+        EA, EI, rhoA = (float(np.ravel(row[name])[0]) for name in ("EA", "EI", "rhoA"))
+        section = Section(axial_stiffness=EA, bending_stiffness=EI, mass_per_length=rhoA)
+        blade = Blade(
+            length=row["L"], section=section, hub_radius=row["hub_radius"],
+            point_masses=(PointMass(position=row["L"], mass=mass),) if mass else (),
+            damping=Damping(bending=row["bending_damping"]),
+        )  # fmt: skip
     if row["EI_flap/EI"] is not None:
         blade = blade.with_section_out_of_plane(row["EI_flap/EI"], row["GJ/EI"])
     if row["twist"]:
@@ -229,7 +259,7 @@ def _read_back(row: dict[str, Any]) -> dict[str, Any]:
             motion = SpinUp(omega=row["omega"], ramp_time=row["T"])
     loads = (gravity,) if gravity.gravity else ()
     return {one.name: getattr(blade, one.name) for one in fields(blade)} | {
-        "motion": motion, "loads": loads
+        "motion": motion, "loads": loads, "settled": row["start"] == "equilibrium"
     }  # fmt: skip
 
 

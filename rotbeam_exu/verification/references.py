@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -183,11 +183,12 @@ def row_of(case: Case, declared: Theory, speed: float) -> tuple[FloatArray, floa
     if case.asked is Asked.STEADY:
         # Loads that stand still in the turning frame are weight, along the axis of rotation.
         weight = -sum(float(load.lift(np.zeros(1))[0]) for load in case.loads)
-        steady = steady_state(blade, speed, gravity=weight, theory=theory)
+        steady = steady_state(blade, speed, gravity=weight, theory=theory, tolerance=COMPUTED_BOUND)
         row = np.array([steady.tip[1], steady.tip[2], steady.twist])
-        scales = np.abs(row) / case.sizes
+        scales = np.abs(row) / case.sizes[: row.size]
         return row, COMPUTED_BOUND + steady.error / float(scales.min())
-    return case.frequencies(speed, theory), COMPUTED_BOUND
+    modes = case.modes(speed, theory)
+    return modes.frequencies, max(modes.error, COMPUTED_BOUND)
 
 
 class Sampled(NamedTuple):
@@ -216,14 +217,13 @@ def sampled_history(
     count = math.ceil(case.duration / spacing) + _BEYOND
     time = 0.5 * spacing * np.arange(2 * count + 1, dtype=np.float64)
     if case.is_spun_up:
-        response = spin_up_response(
-            blade, case.spin_up, time, tolerance=tolerance, loads=case.loads, theory=theory,
-            kick=case.kick,
+        solved = partial(
+            spin_up_response, blade, case.spin_up, time, loads=case.loads, theory=theory,
+            kick=case.kick, start="steady" if case.settled else "straight",
         )  # fmt: skip
-        q = case.joined([getattr(response, name) for name in case.columns])
-        # The error is over the largest of q and flap, to which all columns are small.
-        sizes = np.abs(q).max(axis=0) / case.sizes
-        error = response.error * float(sizes.max() / sizes.min())
+        response = solved(tolerance=tolerance)
+        q = case.handed(response)
+        error = case.error_of(response, partial(solved, tolerance=10.0 * tolerance))
     else:
         orbit = periodic_orbits(blade, motion.omega, case.amplitudes, theory=theory)
         q, error = blade.length * orbit.response(time, 0), float(orbit.residual.max())

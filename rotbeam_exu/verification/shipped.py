@@ -31,6 +31,8 @@ DIGEST = "b47671f0fcc83cabdcfb3aeb183c29d58b218c23b6cb07b2061a70db6da0b796"
 
 _REMEDY = "install rotbeam-exu again, or make them by tools/references.py of the repository"
 
+_LONG = 4000
+
 DURATION = 20.0
 """End of the shipped histories [s]."""
 
@@ -43,8 +45,8 @@ def spline(time: FloatArray, q: FloatArray) -> interpolate.BSpline:
 def key(case: Case, theory: Theory) -> tuple[object, ...]:
     """Return what makes a history, or a table."""
     table = () if case.asked is Asked.HISTORY else (case.asked.name, case.speeds, case.count)
-    kick = (case.kick,) if case.kick else ()
-    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *table, *kick)
+    starts = *(case.kick,) * bool(case.kick), *("settled",) * case.settled
+    inputs = (case.blade, case.motion, case.loads, case.amplitudes, *table, *starts)
     theory = case.theory_of(theory)
     return inputs if theory == BERNOULLI_EULER else (*inputs, theory)
 
@@ -66,13 +68,16 @@ def _is_nothing(part: object) -> bool:
 
 
 def said(value: object) -> str:
-    """Return all numbers behind a history or a backbone, by which the file knows it."""
+    """Return what is behind a history or a backbone, all numbers, by which the file knows it."""
     if isinstance(value, tuple):
-        return f"({', '.join(map(said, value))})"
-    if not is_dataclass(value):
-        return repr(value)
-    parts = (f"{name}={said(part)}" for name, part in _stated(value).items())
-    return f"{type(value).__name__}({', '.join(parts)})"
+        text = f"({', '.join(map(said, value))})"
+    elif is_dataclass(value):
+        parts = (f"{name}={said(part)}" for name, part in _stated(value).items())
+        text = f"{type(value).__name__}({', '.join(parts)})"
+    else:
+        text = repr(value)
+    # Of tables of stations a digest.
+    return text if len(text) < _LONG else hashlib.sha256(text.encode()).hexdigest()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -26,7 +26,7 @@ from analytic.input_checks import whole_number
 from analytic.theory import BERNOULLI_EULER, Theory
 
 from ..lazily import xr
-from .case import Asked, Case, SpaceCase
+from .case import Asked, Case
 from .cases import CASES, SPEEDS, frequency_case, spin_up_case
 from .judgement import Judgement, judged
 from .submission import Declaration, Row, Run, Submission
@@ -111,11 +111,6 @@ class Entry:
             whole_number("meshes", elements)
 
     @property
-    def columns(self) -> tuple[str, ...]:
-        """Columns of the histories of the cases that it does."""
-        return (SpaceCase if self.in_space else Case).columns
-
-    @property
     def own_meshes(self) -> tuple[int, ...]:
         """Meshes on which convergence is judged, coarse to fine."""
         around = (max(self.elements // 2, 1), self.elements, 2 * self.elements)
@@ -168,7 +163,7 @@ def submission_of(entry: Entry, cases: Sequence[Case]) -> Submission:
     Frequencies and steady tips on its own meshes; histories on these meshes at twice its step, and
     on its mesh at one, two and four of its steps. What fails is on record with its sentence.
     """
-    cases = [case for case in cases if case.columns == entry.columns]
+    cases = [case for case in cases if case.in_space == entry.in_space]
     return Submission(
         declaration=Declaration(
             code=entry.name, theory=entry.theory, order=entry.order,

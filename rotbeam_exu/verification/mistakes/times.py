@@ -65,7 +65,7 @@ def delays(
 
 def _first(case: Case, speed: float) -> float:
     """Return the first natural frequency at a speed [rad/s]."""
-    return float(case.frequencies(speed, case.theories[0])[0])
+    return float(case.modes(speed, case.theories[0]).frequencies[0])
 
 
 def off_in_mass(frequency_at: Callable[[float], float], speed: float, found: float) -> float:

@@ -133,7 +133,8 @@ def history_of(folder: Folder, file: str, case: Case, step: float) -> dict[str, 
             # Even samples, such as 0.02 k, and zeros are exact however short.
             if not (gaps.size and np.ptp(gaps) <= 1e-9 * np.abs(values).max()):
                 most[name] = tables.digits(row.split(",")[k] for row in sheet.rows)
-        farthest = tip[np.abs(tip).argmax(axis=0), np.arange(time.size)]
+        lengths = tip / np.array(case.sizes)[:, None] * case.blade.length
+        farthest = lengths[np.abs(lengths).argmax(axis=0), np.arange(time.size)]
         wrong = [*tables.too_short(most), *_unfit(time, farthest, case, sheet.lines)]
     if folder.add_all(file, wrong):
         return None

@@ -18,7 +18,7 @@ import numpy as np
 
 from analytic.letters import plain_text
 
-from ..case import TIP, Asked, Case
+from ..case import ROOT, TIP, Asked, Case
 from ..cases import CASES
 from ..submission import LONGEST_REMARKS
 from .faults import Folder, near, shown
@@ -139,6 +139,7 @@ _TIME = Column("time", "s")
 _TIP = tuple(Column(name, "rad" if name == "twist" else "m", measured=True) for name in TIP)
 HISTORY = {
     TIP: (_TIME, *_TIP),
+    (*TIP, *ROOT): (_TIME, *_TIP, *(Column(name, "N m", measured=True) for name in ROOT)),
     ("q",): (_TIME, Column("q", "m"), Column("q_dot", "m/s", needed=False, measured=True)),
 }
 """Columns of histories by `Case.columns`."""
