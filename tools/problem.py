@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from analytic import Beam
-from rotbeam_exu.verification.case import Case
+from rotbeam_exu.verification.case import Case, Level
 from rotbeam_exu.verification.cases import CASES, VERSION
 from rotbeam_exu.verification.judgement import THRESHOLDS
 from rotbeam_exu.verification.kit import STATIC, row_of
@@ -60,11 +60,14 @@ def _looked_at() -> list[dict[str, Any]]:
         if not case.in_space:
             continue
         truth = reference(case)
-        at = case.speeds[-1:] or (5.0, 15.0)
+        at = case.speeds[-1:] or (5.0, case.duration)
         at_text = "{:g} rad/s" if case.speeds else "$t$ = {:g} s"
         rows = [truth.row(x) if case.speeds else truth.history(x) for x in at]
         found += [
-            {"id": case.name, "at": at_text.format(x), "row": [f"{v:.4g}" for v in row.tolist()]}
+            {
+                "id": case.name, "at": at_text.format(x), "real": case.level is Level.REAL,
+                "row": [f"{v:.4g}" for v in row.tolist()],
+            }  # fmt: skip
             for x, row in zip(at, rows, strict=True)
         ]
     return found

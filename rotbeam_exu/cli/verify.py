@@ -42,9 +42,10 @@ def verify(
 
     Frequencies, history, amplitude and nonlinear shift.
 
-    The cases are L, S1, S2, O and S4 of the benchmark; of a beam of --config, its spin-up. With
-    --command your program is run on finer meshes and steps until they are decided, and its files
-    are kept as a submission. What is there is not run again; a failed run stays on record.
+    The cases are L, S1, S2, O and S4 of the benchmark, in space F, F+p, P, W, G and K, or those
+    that are named; of a beam of --config, its spin-up. With --command your program is run on finer
+    meshes and steps until they are decided, and its files are kept as a submission. What is there
+    is not run again; a failed run stays on record.
 
     Parameters
     ----------
@@ -58,7 +59,7 @@ def verify(
     out
         Folder of the submission that --command makes or goes on with.
     case
-        Run this case with --command, as S1; repeat it for several.
+        Judge this case of the benchmark, as S1 or F+N; repeat it for several.
     elements
         Of the middle one of the first three meshes of --command.
     step
@@ -105,7 +106,9 @@ def verify(
     judgements = []
     with counter("verifying") as progress:
         for entry in entries:
-            judgements.append(verification_of(entry, duration=motion.duration, **mine))
+            judgements.append(
+                verification_of(entry, duration=motion.duration, cases=cases_named(case), **mine)
+            )
             progress(len(judgements), len(entries))
     about = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
     print_judgements(judgements, about if request.config else "the paper's beam")

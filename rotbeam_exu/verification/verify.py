@@ -123,6 +123,7 @@ def verify(
     blade: Blade | None = None,
     spin_up: SpinUp | None = None,
     duration: float = 15.0,
+    cases: Sequence[str] = (),
 ) -> Judgement:
     """Judge a code against the exact beam.
 
@@ -136,6 +137,13 @@ def verify(
         A single one to be judged instead; of a beam that is given ω = 6 rad/s in T = 3 s.
     duration : float
         End of that one [s].
+    cases : sequence of str
+        Names of others of the benchmark, of the paper's beam or of others, as "F+N".
+
+    Raises
+    ------
+    ValueError
+        If `cases` are named for a blade or spin-up of one's own.
 
     Examples
     --------
@@ -148,13 +156,18 @@ def verify(
     1 of 2 agrees, 1 undecided (L)
     """
     if blade is None and spin_up is None:
-        cases = [CASES[name] for name in (IN_SPACE if entry.in_space else DEFAULT)]
+        names = cases or (IN_SPACE if entry.in_space else DEFAULT)
+        chosen = [CASES[name] for name in names]
+    elif cases:
+        raise ValueError(
+            "cases of the benchmark have their own blades: leave out --config, or blade and spin_up"
+        )
     else:
         blade, motion = blade or Beam.reference(), spin_up or SpinUp(omega=6.0, ramp_time=3.0)
         faster = blade.omega_0 / Beam.reference().omega_0
         speeds = tuple(speed * faster for speed in SPEEDS)
-        cases = [frequency_case(blade, speeds), spin_up_case(blade, motion, duration)]
-    return judged(submission_of(entry, cases), cases={case.name: case for case in cases})
+        chosen = [frequency_case(blade, speeds), spin_up_case(blade, motion, duration)]
+    return judged(submission_of(entry, chosen), cases={case.name: case for case in chosen})
 
 
 def submission_of(entry: Entry, cases: Sequence[Case]) -> Submission:

@@ -9,6 +9,7 @@ from analytic import (
     Beam,
     Blade,
     Damping,
+    FourierRamp,
     Gravity,
     Rectangle,
     SpeedRipple,
@@ -28,6 +29,9 @@ ALIKE = BEAM.with_section_out_of_plane(1.0, 0.8)
 
 def damped(blade, element, **damping):
     return {"blade": blade.with_damping(Damping(**damping)), "element": element}
+
+
+TURNING = FourierRamp(omega=6.0, ramp_time=3.0, start=3.0)
 
 
 def in_space(blade, **options):
@@ -80,7 +84,8 @@ def in_space(blade, **options):
         ({"blade": STRIP.with_kink(4.0, 0.1)}, "kink or offset: take element='space_exact'"),
         ({"blade": TABLE}, "a table of stations this .* the command line --element space_exact"),
         ({"blade": TABLE.with_tip_mass(0.5)}, "twists: take analytic.spin_up_response, or on the"),
-        (in_space(STRIP.with_twist(0.1), initial_state=kicked(STRIP)), "in its plane"),
+        (in_space(STRIP.with_twist(0.1), spin_up=TURNING), "in its plane"),
+        (in_space(STRIP.with_kink(4.0, 0.1), initial_state=kicked(STRIP)), "without kinks"),
         ({"loads": [Gravity(tilt=1.0)]}, "'cable' stays in the plane of rotation"),
         *(
             ({"element": name, "initial_state": kicked(STRIP)}, f"{name}' stays .* take element=")

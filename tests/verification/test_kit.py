@@ -171,10 +171,10 @@ def test_the_paper_is_of_the_present_source():
     assert problem.PDF.read_bytes().startswith(b"%PDF")
 
 
-def test_the_paper_has_two_pages_and_one_for_space():
+def test_the_paper_has_two_pages_and_two_for_space():
     pytest.importorskip("typst")
     pages = problem.typeset(format="png", ppi=20)
-    assert len(pages) == 3
+    assert len(pages) == 4
 
 
 def test_an_empty_folder_is_taken_and_another_refused(call, tmp_path, monkeypatch):
