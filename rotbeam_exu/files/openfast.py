@@ -24,6 +24,8 @@ from .results import whole_file
 _AXES = np.kron(np.eye(2), np.array([[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]]))
 """Components along our axes of those along BeamDyn's, and the other way round."""
 
+_ROUNDED = 1e-4  # by which digits of tables leave j1 off j2 + j3
+
 _ELASTODYN = {
     "BlFract": "x [m], the length times it", "StrcTwst": "twist [deg], with the other sign",
     "BMassDen": "m [kg/m]", "FlpStff": "EI2 [N m^2]", "EdgStff": "EI3 [N m^2]",
@@ -190,6 +192,14 @@ def write_beamdyn(blade: Blade, path: Path) -> list[Path]:
     eta = np.array(table.x) / blade.length
     stations = ""
     matrices = np.array((table.stiffness, table.mass))
+    polar, due = matrices[1, :, 3, 3], matrices[1, :, 4, 4] + matrices[1, :, 5, 5]
+    if (far := np.abs(polar / due - 1.0) > _ROUNDED).any():
+        raise ValueError(
+            f"BeamDyn takes sections whose polar inertia is the sum of both others, and at "
+            f"{table.x[far.argmax()]:g} m it is {polar[far.argmax()]:g} of {due[far.argmax()]:g} "
+            "kg m: set j1 = j2 + j3, as of a thin slice"
+        )
+    matrices[1, :, 3, 3] = due  # BeamDyn compares all digits
     for place, *both in zip(eta, *(_AXES @ matrices @ _AXES), strict=True):
         stations += f"{place:.16f}\n" + "".join(f"{_rows(one)}\n\n" for one in both)
     damped, mu = int(bool(blade.damping)), np.abs(_AXES) @ blade.damping.of_strains

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from analytic import Damping, linear_modes
+from analytic import Blade, Damping, linear_modes
 from analytic.arrays import evaluated
 from analytic.exact.continuum.unit import space_unit
 from rotbeam_exu.files.beam_file import load_beam
@@ -256,12 +256,19 @@ def test_nrel_s_blade_is_that_of_openfast(tmp_path):
 
 @pytest.mark.parametrize("name", ["nrel_5mw", "iea_15mw"])
 def test_the_shipped_blades_come_back_from_beamdyn_s_files(name, tmp_path):
-    """Sections to the last digit; a curved line, found again from its points, to round-off."""
+    """Sections to the last digit; a curved line, found again from its points, to round-off.
+
+    BeamDyn refuses a polar inertia that is not the sum of both others, by 5e-6 in NREL's table.
+    """
     blade = load_beam(BLADES / f"{name}.toml")
     write_beamdyn(blade, tmp_path / "b.dat")
     found = load_beam(tmp_path / "b.dat")
-    for kind in ("stiffness", "mass"):
-        assert getattr(found.section, kind) == getattr(blade.section, kind)
+    assert found.section.stiffness == blade.section.stiffness
+    mass, same = np.array(found.section.mass), np.array(blade.section.mass)
+    assert np.array_equal(mass[:, 3, 3], mass[:, 4, 4] + mass[:, 5, 5])
+    assert mass[:, 3, 3] == pytest.approx(same[:, 3, 3], rel=1e-5)
+    same[:, 3, 3] = mass[:, 3, 3]
+    assert np.array_equal(mass, same)
     assert found.length == pytest.approx(blade.length, rel=1e-12)
     assert found.section.x == pytest.approx(blade.section.x, rel=1e-12)
     at = np.linspace(0.0, 1.0, 101)
@@ -417,6 +424,12 @@ def test_nothing_but_what_beamdyn_holds_is_written(folder):
         (blade.with_tip_mass(1.0), "no point masses"),
         (blade.with_kink(1.0, 0.1), "no kinks"),
         (load_beam(BLADES / "nrel_5mw_edgewise.toml"), "make the blade by Blade.from_stations"),
+        (
+            Blade.from_stations(
+                [0.0, 9.0], [[1e7, 1e7, 1e7, 8e4, 5e3, 8e4]] * 2, [[8, 0.4, 0.1, 0.2]] * 2
+            ),
+            "at 0 m it is 0.4 of 0.3 kg m: set j1 = j2 \\+ j3",
+        ),
     ):
         with pytest.raises(ValueError, match=sentence):
             write_beamdyn(other, folder / "y.dat")
