@@ -65,9 +65,11 @@ def _looked_at() -> list[dict[str, Any]]:
         rows = [truth.row(x) if case.speeds else truth.history(x) for x in at]
         found += [
             {
-                "id": case.name, "at": at_text.format(x), "real": case.level is Level.REAL,
+                "id": case.name,
+                "at": at_text.format(x),
+                "real": case.level is Level.REAL,
                 "row": [f"{v:.4g}" for v in row.tolist()],
-            }  # fmt: skip
+            }
             for x, row in zip(at, rows, strict=True)
         ]
     return found

@@ -12,7 +12,8 @@ import numpy as np
 from analytic import Beam, Blade, Damping, Ellipse, Gravity, SpinUp, SteadyRotation, Tube
 from analytic.theory import BERNOULLI_EULER, Theory
 
-from .case import Asked, Case, Level, SpaceCase, TableCase
+from .case import Asked, Case, Level
+from .space_cases import SpaceCase, TableCase
 
 VERSION = "1.2"
 """Version of the benchmark: the first number of its thresholds, the second of its list of cases."""

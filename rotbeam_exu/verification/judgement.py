@@ -10,12 +10,13 @@ from dataclasses import dataclass
 from analytic import Blade
 from analytic.threads import one_thread
 
-from .case import TIP, Asked, Case
+from .case import Asked, Case
 from .cases import CASES
 from .convergence import Convergence, Order, converged
 from .history import Histories, judged_apart, mending
 from .outcomes import Finding, Outcome, finding_of, worst_of
 from .references import Reference, reference
+from .space_cases import TIP
 from .submission import Declaration, Row, Submission
 
 THRESHOLDS = {

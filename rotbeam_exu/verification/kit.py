@@ -31,10 +31,11 @@ from analytic.input_checks import finite_array
 from analytic.motion import Motion
 
 from ..files.results import whole_file
-from .case import Asked, Case, TableCase
+from .case import Asked, Case
 from .cases import CASES, VERSION, blade_of_table
 from .judgement import THRESHOLDS
 from .references import reference
+from .space_cases import TableCase
 from .submission_files.runs import FARTHEST
 from .submission_files.tables import DIGITS
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rotbeam_exu.verification.case import SpaceCase
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order, converged
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.outcomes import Finding, Outcome, _rounded, finding_of, worst_of
+from rotbeam_exu.verification.space_cases import SpaceCase
 from rotbeam_exu.verification.verify import Entry, submission_of
 
 

@@ -14,13 +14,13 @@ from analytic.arrays import evaluated
 from rotbeam_exu.fem.elements import formulation
 from rotbeam_exu.files.beam_file import load_beam
 from rotbeam_exu.verification import kit
-from rotbeam_exu.verification.case import ROOT, TIP
 from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.entries import formulation_entry
 from rotbeam_exu.verification.judgement import judged
 from rotbeam_exu.verification.mistakes import mistakes_in
 from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
+from rotbeam_exu.verification.space_cases import ROOT, TIP
 from rotbeam_exu.verification.submission_files import read_submission, write_submission
 from rotbeam_exu.verification.verify import submission_of
 from tests.verification.test_in_space import submitted

@@ -9,9 +9,10 @@ import numpy as np
 
 from analytic.arrays import FloatArray
 
-from ..case import SIGNS, TWISTED, Asked, Case
+from ..case import Asked, Case
 from ..judgement import THRESHOLDS
 from ..references import Reference, row_of
+from ..space_cases import SIGNS, TWISTED
 from ..submission import Row
 from .histories import UNITS, Mistake, explaining, largest
 from .times import off_in_mass, said_of_mass

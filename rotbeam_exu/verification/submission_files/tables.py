@@ -18,8 +18,9 @@ import numpy as np
 
 from analytic.letters import plain_text
 
-from ..case import ROOT, TIP, Asked, Case
+from ..case import Asked, Case
 from ..cases import CASES
+from ..space_cases import ROOT, TIP
 from ..submission import LONGEST_REMARKS
 from .faults import Folder, near, shown
 
