@@ -2,7 +2,7 @@
 
 A submission flows from the top down:
 
-1. `case`, `cases`: a task, and the list of all. A case answers for its kind.
+1. `case`, `space_cases`, `cases`: a task, and the list of all. A case answers for its kind.
 2. `submission`: a code's declaration, the rows of its tables and its runs, from either door:
    `submission_files` reads and writes the folder of an author (`kit` is what the author has),
    `verify` calls a code that runs here, as `entries` wraps our own elements, and has it judged.

@@ -129,7 +129,8 @@ class Run:
         Step of the integration [s], or the tolerance of one that chooses its steps; the other is
         NaN.
     time, q : ndarray (samples,)
-        [s], and q [m] of Eq. 16, in space `cases.TIP` (samples, 3); empty of a run that failed.
+        [s], and q [m] of Eq. 16, in space the columns of the case (samples, n); empty of a run that
+        failed.
     failure : str
         The code's own sentence, if it failed.
     file : str

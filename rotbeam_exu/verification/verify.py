@@ -48,13 +48,15 @@ class Code(Protocol):
     def __call__(self, case: Case, *, elements: int, step: float) -> xr.Dataset:
         """Return q [m] of the tip over `time` [s], as Eq. 16 has it.
 
-        In space lag and flap [m] and twist [rad] in its place, as `cases.TIP`.
+        In space `case.columns` in its place: lag and flap [m], twist [rad], and of real blades the
+        moment of the blade on the clamp [N m].
 
         The blade, `case.blade`, starts straight and at rest and turns by `case.rotation` under
         `case.loads`; where not `case.is_spun_up` it starts on `case.orbit`, whose ``state(0, x)``
         is the `BladeState` at material points x [m]. Samples are even, at least 100 a period, and
         go from 0 to `case.duration` or a little beyond. With `case.kick` it starts in the state
-        `case.start(x)`, straight, but in motion out of the plane.
+        `case.start(x)`, straight, but in motion out of the plane; with `case.settled` in that of
+        its equilibrium under the loads.
 
         Raises
         ------
