@@ -101,11 +101,12 @@ def output_of(call: Sequence[object], **options: Any) -> str:
 def take_part(
     script: str,
     declaration: Declaration,
-    history: Callable[[Case, int, float], FloatArray],
-    runs: Mapping[str, Sequence[tuple[int, float]]],
+    history: Callable[[Case, int, float], FloatArray] | None = None,
+    runs: Mapping[str, Sequence[tuple[int, float]]] | None = None,
     frequency: Callable[[Case, int, float], float] | None = None,
     meshes: Sequence[int] = (),
     speeds: Sequence[float] = CASES["L"].speeds,
+    rows: Sequence[Row] = (),
 ) -> None:
     """Run a code, write its submission in place of the one beside a script, and record it.
 
@@ -116,15 +117,17 @@ def take_part(
     script : str
         Its path.
     declaration : Declaration
-    history : callable
+    history : callable, optional
         (case, elements, step [s]) -> q [m] at `times`, or the columns of a case in space;
         RuntimeError with one sentence where it fails.
-    runs : dict
+    runs : dict, optional
         Meshes and steps [s] by name of the case.
     frequency : callable, optional
         (case, elements, speed [rad/s]) -> first natural frequency [rad/s].
     meshes, speeds : sequence
         Of the frequencies.
+    rows : sequence of Row
+        Of other tables, as they are.
     """
     before = calibration()
     made = Submission(
@@ -135,10 +138,11 @@ def take_part(
             Row(elements=n, speed=speed, values=(float(frequency(CASES["L"], n, speed)),))
             for n in meshes
             for speed in speeds
-        ) if frequency else (),
+        ) if frequency else tuple(rows),
         runs=tuple(
             _run(history, CASES[name], elements, step)
-            for name, resolutions in runs.items()
+            for name, resolutions in (runs or {}).items()
+            if history
             for elements, step in resolutions
         ),
     )  # fmt: skip

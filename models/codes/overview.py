@@ -58,8 +58,8 @@ class Code:
         if not findings:
             return ""
         said = worst_of(findings).said.replace(" to the reference", "")
-        speeds = sorted({one.speed for one in self.handed.rows})
-        whole = case != "L" or len(speeds) == len(CASES["L"].speeds)
+        speeds = sorted({one.speed for one in self.handed.rows if one.case == case})
+        whole = len(speeds) in (0, len(CASES[case].speeds))
         return said if whole else f"{said} (only at {', '.join(map('{:g}'.format, speeds))} rad/s)"
 
     @property

@@ -84,9 +84,9 @@ def test_a_right_code_converges_from_files_as_well(theory, tmp_path):
 
 
 def test_references_are_known_to_a_hundredth_of_what_passes():
-    """Frequencies and steady states to 1e-6 or so; histories with moments to 1e-5."""
+    """Frequencies and steady states to 1e-6 or so; histories with moments to 2e-5."""
     for name in TIER:
-        most = 1e-5 if name.startswith("W") else 2e-6
+        most = 2e-5 if name.startswith("W") else 2e-6
         assert all(reference(CASES[name], theory).bound < most for theory in (Theory(), SHEARED))
 
 

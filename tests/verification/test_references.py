@@ -158,8 +158,11 @@ def test_all_of_the_paper_is_shipped_and_starts_at_rest():
     assert all(shipped().history(*one) for one in references.shipped_histories().values())
     assert all(reference(case).source.startswith("shipped") for case in CASES.values())
     q, bounds = shipped().data["q"], shipped().data["bound"]
-    assert np.abs(q[:, 0]).max() == 0.0
-    assert bounds.max() < 1e-5
+    # Real blades start from their sag, all others straight.
+    real = np.array([name.startswith("W+") for name in shipped().data["history"].tolist()])
+    assert np.abs(q[~real, 0]).max() == 0.0
+    assert bounds[~real].max() < 1e-5
+    assert bounds[real].max() < 2e-5
     assert bounds[shipped().data["history"] == "6-3"] < 2e-8
 
 
