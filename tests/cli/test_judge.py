@@ -24,7 +24,7 @@ def test_a_right_code(call, reached, folder, tmp_path, monkeypatch):
     page, data = tmp_path / "out.html", tmp_path / "out.json"
     code, out, err = call("judge", folder, "--report", page, "--json", data)
     assert (code, err) == (0, "")
-    assert "2 of 20" in out
+    assert "2 of 26" in out
     assert "usual mistake" not in out
     assert "reference: " in out
     tables = out.split("reference: ")[0]

@@ -95,7 +95,7 @@ def test_the_page_needs_nothing_else_and_is_whole(pages, which):
 def test_the_page_tells_what_was_found(pages):
     text = " ".join(Page(pages["right"]).text)
     for said in (
-        TITLE, "Mine", "2 of 20 agree, 18 not submitted", "self-judged", "21 November 2026",
+        TITLE, "Mine", "2 of 26 agree, 24 not submitted", "self-judged", "21 November 2026",
         "one core", "A, B", "S1/m016_h5e-4.csv", "0" * 64, "went on", "rotbeam_exu 0.1.0",
         "linear frequency", "nonlinear shift", "2.0 of 2", "the exact Bernoulli-Euler beam",
     ):  # fmt: skip

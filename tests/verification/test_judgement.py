@@ -290,11 +290,11 @@ def test_what_is_off_by_half_of_what_passes_agrees_and_does_not_converge(submitt
 
 def test_the_headline_counts_all_cases(whole):
     found = judged(whole)
-    assert found.outcome == "1 of 20 agrees, 19 not submitted"
+    assert found.outcome == "1 of 26 agrees, 25 not submitted"
     coarse = replace(
         found, findings={**found.findings, "O": {"history": Finding(outcome=Outcome.UNDECIDED)}}
     )
-    assert coarse.outcome == "1 of 20 agrees, 1 undecided (O), 18 not submitted"
+    assert coarse.outcome == "1 of 26 agrees, 1 undecided (O), 24 not submitted"
     assert coarse.passed is None
     # An undecided shift, the harder demand, is told behind q(t), and does not pass either.
     right = found.findings["S1"]["history"]
@@ -304,7 +304,7 @@ def test_the_headline_counts_all_cases(whole):
     assert (behind.outcome, behind.passed) == (said, None)
     wrong = {"history": Finding(outcome=Outcome.DIFFERS)}
     both = replace(coarse, findings={**coarse.findings, "S2": wrong})
-    assert both.outcome == "1 of 20 agrees, 1 undecided (O), 1 differs (S2), 17 not submitted"
+    assert both.outcome == "1 of 26 agrees, 1 undecided (O), 1 differs (S2), 23 not submitted"
     assert both.passed is False
 
 
