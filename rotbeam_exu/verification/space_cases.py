@@ -84,12 +84,12 @@ class TableCase(SpaceCase):
 
     @property
     def sizes(self) -> tuple[float, ...]:
-        """Those of the tip, and EI/L at the root."""
+        """L of lag and flap, a radian of the twist, and EI/L at the root."""
         return (*super().sizes, *3 * [self.blade.bending_stiffness / self.blade.length])
 
     @property
     def slips(self) -> Mapping[str, tuple[str, Sequence[float]]]:
-        """Those of the tip, and of the moment its sign and the largest of its units."""
+        """Slips in the tip, and of the moment its sign and its unit."""
         moment = "the root's moment is"
         return {
             **{name: (said, (*of, 1.0, 1.0, 1.0)) for name, (said, of) in super().slips.items()},
