@@ -17,6 +17,7 @@ from matplotlib.axes import Axes
 
 from rotbeam_exu.figures.style import columns, house_axes, save_figure
 from rotbeam_exu.paper import BLUE, RED
+from rotbeam_exu.verification.case import Level
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order
 from rotbeam_exu.verification.judgement import Judgement, judged
@@ -132,10 +133,11 @@ def codes() -> list[Code]:
     return sorted(made, key=lambda one: one.name.lower())
 
 
-def verdicts(of: Iterable[Code]) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of the table of codes and cases."""
-    of = list(of)
-    cases = [case for case in CASES if any(case in one.found.findings for one in of)]
+def verdicts(of: Iterable[Code], *, real: bool = False) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of the table of codes and cases, of real blades or all others."""
+    cases = [name for name, case in CASES.items() if (case.level is Level.REAL) == real]
+    of = [one for one in of if not one.found.findings.keys().isdisjoint(cases)]
+    cases = [case for case in cases if any(case in one.found.findings for one in of)]
     rows = []
     for one in of:
         told = one.found.declaration
@@ -229,6 +231,7 @@ def _printed(header: list[str], rows: list[list[str]]) -> None:
 if __name__ == "__main__":
     judged_codes = codes()
     _printed(*verdicts(judged_codes))
+    _printed(*verdicts(judged_codes, real=True))
     print()
     _printed(*costs(judged_codes))
     print()
