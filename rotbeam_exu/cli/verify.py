@@ -111,7 +111,8 @@ def verify(
             )
             progress(len(judgements), len(entries))
     about = f"ω = {motion.spin_up.omega:g} rad/s in T = {motion.spin_up.ramp_time:g} s"
-    print_judgements(judgements, about if request.config else "the paper's beam")
+    paper = "the benchmark" if case else "the paper's beam"
+    print_judgements(judgements, about if request.config else paper)
 
 
 def _until_decided(

@@ -145,7 +145,7 @@ def verify(
     Raises
     ------
     ValueError
-        If `cases` are named for a blade or spin-up of one's own.
+        If `cases` are named for a blade or spin-up of one's own, or that the code does not do.
 
     Examples
     --------
@@ -160,6 +160,11 @@ def verify(
     if blade is None and spin_up is None:
         names = cases or (IN_SPACE if entry.in_space else DEFAULT)
         chosen = [CASES[name] for name in names]
+        if other := [case.name for case in chosen if case.in_space != entry.in_space]:
+            where = "in space" if entry.in_space else "in the plane"
+            raise ValueError(
+                f"{entry.name} is judged by cases {where}, and {', '.join(other)} is of the others"
+            )
     elif cases:
         raise ValueError(
             "cases of the benchmark have their own blades: leave out --config, or blade and spin_up"

@@ -22,7 +22,7 @@ from rotbeam_exu.verification.outcomes import Outcome
 from rotbeam_exu.verification.references import reference
 from rotbeam_exu.verification.space_cases import ROOT, TIP
 from rotbeam_exu.verification.submission_files import read_submission, write_submission
-from rotbeam_exu.verification.verify import submission_of
+from rotbeam_exu.verification.verify import submission_of, verify
 from tests.verification.test_in_space import submitted
 
 BLADES = Path(__file__).parents[2] / "models" / "blades"
@@ -155,6 +155,14 @@ def _near(finding, said):
     assert finding.outcome is not Outcome.DIFFERS, said
     assert abs(finding.model_difference) < 1e-3, said
     assert finding.runs.orders["mesh"].value == pytest.approx(2.0, abs=0.4), said
+
+
+def test_cases_that_a_code_does_not_do_are_refused():
+    plane = formulation_entry(formulation("cable"))
+    with pytest.raises(ValueError, match=r"cable is judged by cases in the plane, and F\+N is of"):
+        verify(plane, cases=["S1", "F+N"])
+    with pytest.raises(ValueError, match="leave out --config, or blade and spin_up"):
+        verify(plane, blade=CASES["S1"].blade, cases=["S1"])
 
 
 @pytest.mark.slow
