@@ -1,8 +1,8 @@
 """Make the shipped reference data: part of `make references`.
 
 What the file has of a blade, motion, loads and theory stays, to the last bit; --all computes it
-anew, in half an hour, half of it the kicked tube. Look at what moved, and by how much against the
-bounds, before committing it.
+anew, in more than half an hour, most of it the kicked tube and the real blades. Look at what moved,
+and by how much against the bounds, before committing it.
 """
 
 from __future__ import annotations

@@ -218,9 +218,7 @@ def _start(
                 )
     state, model = units.state(state), case.model
     blade = units.blade(case.blade)
-    frame = np.eye(3)
-    if model.leaves_plane:
-        frame = model.line_frame(blade)
+    frame = model.line_frame(blade) if model.leaves_plane else np.eye(3)
     # The hub is in the plane of rotation, out of which the precone lifts the blade.
     state = state.seen_from(frame.T)
     state = replace(state, place=state.place + blade.unit.hub * np.eye(3)[0])

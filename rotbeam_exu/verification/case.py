@@ -80,6 +80,8 @@ class Case:
         Speed of the tip out of the plane at t = 0 [m/s], as `spin_up_response` has it.
     settled : bool
         Whether a history starts in equilibrium under its loads, at rest.
+    table : str
+        Name of the file of the blade's stations; empty of a blade without.
     oscillates : bool
         Whether the history ends in a steady oscillation, whose amplitude and frequency are judged.
     theories : tuple of Theory
@@ -106,6 +108,7 @@ class Case:
     loads: tuple[Load, ...] = ()
     kick: float = 0.0
     settled: bool = False
+    table: str = ""
     oscillates: bool = False
     count: int = 1
     theories: tuple[Theory, ...] = (BERNOULLI_EULER,)
@@ -145,18 +148,21 @@ class Case:
         return replace(declared, trapeze=True)  # which the plane does not know
 
     def modes(self, speed: float, theory: Theory) -> LinearModes:
-        """Return the exact modes that are asked for at a speed [rad/s]."""
+        """Return the lowest exact modes at a speed [rad/s], as many as the case has numbers."""
         return driven_modes(self.blade, speed, self.count, theory=theory)
 
     def handed(self, response: SpinUpResponse) -> FloatArray:
         """Return what a spin-up would hand in: q (samples,), of several columns (samples, n)."""
         return self.joined([getattr(response, name) for name in self.columns])
 
-    def error_of(self, response: SpinUpResponse, coarser: Callable[[], SpinUpResponse]) -> float:
-        """Return the relative error of a spin-up, of its worst column."""
-        # It is over the largest of q and flap, to which all columns are small.
-        sizes = np.abs(self.handed(response)).max(axis=0) / self.sizes
-        return response.error * float(sizes.max() / sizes.min())
+    def error_of(self, q: FloatArray, error: float, coarser: Callable[[], SpinUpResponse]) -> float:
+        """Return the relative error of what is `handed` in, of its worst column.
+
+        Of a response with an error over the largest of q and flap; `coarser` computes another one.
+        """
+        # To the largest all columns are small.
+        sizes = np.abs(q).max(axis=0) / self.sizes
+        return error * float(sizes.max() / sizes.min())
 
     def joined(self, tip: Sequence[FloatArray] | FloatArray) -> FloatArray:
         """Return the columns of a history as one array: q (samples,), of several (samples, n)."""
@@ -202,7 +208,10 @@ class Case:
 
     @property
     def start(self) -> Callable[[FloatArray], BladeState] | None:
-        """State at material points x [m] at t = 0; None of a beam that starts straight, at rest."""
+        """State at material points x [m] at t = 0; None of a beam that starts straight, at rest.
+
+        Equilibrium is that of the last one of its theories: of a real blade with shear.
+        """
         if self.kick:
             return partial(kicked_state, self.blade, self.kick)
         if self.settled:

@@ -6,8 +6,9 @@ import dataclasses
 
 import numpy as np
 
-from analytic import Blade, steady_state
+from analytic import Blade
 from analytic.arrays import FloatArray
+from analytic.exact.continuum.unit import space_unit
 
 from ..fem.elements import (
     Ancf3,
@@ -80,7 +81,8 @@ def formulation_entry(model: Formulation, elements: int | None = None, step: flo
     def steady_tip(case: Case, omega: float, elements: int) -> FloatArray:
         frame_of(case.blade)
         linear = Linearization.of(case.blade, omega, model, elements, weight=case.loads)
-        place = steady_state(case.blade, 0.0).tip + case.blade.length * linear.tip
+        (unloaded,), _ = space_unit(case.blade).unloaded(np.ones(1))
+        place = case.blade.length * (unloaded + linear.tip)
         return np.array([*place[1:], linear.twist])
 
     return Entry(

@@ -16,17 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic import (
-    Blade,
-    Damping,
-    Gravity,
-    PointMass,
-    Section,
-    SpinUp,
-    SteadyRotation,
-    steady_state,
-)
+from analytic import Blade, Damping, Gravity, PointMass, Section, SpinUp, SteadyRotation
 from analytic.arrays import FloatArray, stations
+from analytic.exact.continuum.unit import space_unit
 from analytic.input_checks import finite_array
 from analytic.motion import Motion
 
@@ -35,7 +27,6 @@ from .case import Asked, Case
 from .cases import CASES, VERSION, blade_of_table
 from .judgement import THRESHOLDS
 from .references import reference
-from .space_cases import TableCase
 from .submission_files.runs import FARTHEST
 from .submission_files.tables import DIGITS
 
@@ -95,7 +86,7 @@ def kit_files() -> dict[str, bytes]:
         if case.amplitudes
         for elements in MESHES
     }
-    tables = {case.table: case.blade for case in CASES.values() if isinstance(case, TableCase)}
+    tables = {case.table: case.blade for case in CASES.values() if case.table}
     texts |= {f"blades/{table}_line.csv": _line(blade) for table, blade in tables.items()}
     texts["reference_S1.csv"] = _self_check(CASES["S1"])
     files |= {name: text.encode() for name, text in texts.items()}
@@ -152,9 +143,9 @@ def _line(blade: Blade) -> str:
     """Return places and sections of an unloaded blade, at its stations and three points between."""
     at = np.array(stations(blade.line.twist))
     x = np.interp(np.arange(4 * at.size - 3) / 4.0, np.arange(at.size), at)
-    unloaded = steady_state(blade, 0.0).section_loads(x)
-    columns = {"x": x} | dict(zip(("X", "Y", "Z"), unloaded.place.T, strict=True))
-    for axis, of in enumerate(np.moveaxis(unloaded.section, -1, 0), 1):
+    place, sections = space_unit(blade).unloaded(x / blade.length)
+    columns = {"x": x} | dict(zip("XYZ", blade.length * place.T, strict=True))
+    for axis, of in enumerate(np.moveaxis(sections, -1, 0), 1):
         columns |= {f"{name}{axis}": value for name, value in zip("XYZ", of.T, strict=True)}
     said = "the unloaded blade in the clamp's frame: m, and axes 1, 2, 3 of its sections"
     return _table(said, columns)
@@ -193,13 +184,13 @@ def row_of(case: Case) -> dict[str, Any]:
     """
     blade, motion = case.blade, case.motion
     section, out_of_plane = blade.section, blade.section.out_of_plane
-    table = case.table if isinstance(case, TableCase) else None
+    table = case.table
     gravity = next((one for one in case.loads if isinstance(one, Gravity)), Gravity(0.0))
     row = {
         "id": case.name,
         "level": str(case.level),
         "asked": case.asked.name.lower(),
-        "stations": table and f"blades/{table}.csv",
+        "stations": f"blades/{table}.csv" if table else None,
         "L": blade.length,
         "EA": None if table else section.axial_stiffness,
         "EI": None if table else section.bending_stiffness,

@@ -223,7 +223,7 @@ def sampled_history(
         )  # fmt: skip
         response = solved(tolerance=tolerance)
         q = case.handed(response)
-        error = case.error_of(response, partial(solved, tolerance=10.0 * tolerance))
+        error = case.error_of(q, response.error, partial(solved, tolerance=10.0 * tolerance))
     else:
         orbit = periodic_orbits(blade, motion.omega, case.amplitudes, theory=theory)
         q, error = blade.length * orbit.response(time, 0), float(orbit.residual.max())

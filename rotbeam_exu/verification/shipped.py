@@ -31,7 +31,7 @@ DIGEST = "d98e0255fee1a0c86a86ff95c1e6b04a0a897abdaa6e184c23d93b75a5e8fa94"
 
 _REMEDY = "install rotbeam-exu again, or make them by tools/references.py of the repository"
 
-_LONG = 4000
+_LONG = 4000  # letters of a part: a digest stands for more, of tables of stations
 
 DURATION = 20.0
 """End of the shipped histories [s]."""
@@ -76,7 +76,6 @@ def said(value: object) -> str:
         text = f"{type(value).__name__}({', '.join(parts)})"
     else:
         text = repr(value)
-    # Of tables of stations a digest.
     return text if len(text) < _LONG else hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -74,12 +74,8 @@ class SpaceCase(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class TableCase(SpaceCase):
-    """A task of a real blade, by 6x6 matrices at stations: histories have the root's moment too.
+    """A task of a real blade, by 6x6 matrices at stations: histories have the root's moment too."""
 
-    `table` names the file of its stations.
-    """
-
-    table: str
     columns: ClassVar[tuple[str, ...]] = (*TIP, *ROOT)
 
     @property
@@ -111,8 +107,7 @@ class TableCase(SpaceCase):
         tip = self.joined([getattr(response, name) for name in TIP])
         return np.concatenate((tip, moment[..., 0]), axis=1)
 
-    def error_of(self, response: SpinUpResponse, coarser: Callable[[], SpinUpResponse]) -> float:
-        """Return the change from a coarser solution: moments have larger errors than the tip."""
-        q = self.handed(response)
+    def error_of(self, q: FloatArray, error: float, coarser: Callable[[], SpinUpResponse]) -> float:
+        """Return the change from a coarser response: moments have larger errors than the tip."""
         change = np.abs(self.handed(coarser()) - q).max(axis=0)
         return float((change / np.abs(q).max(axis=0)).max())

@@ -173,6 +173,7 @@ def test_exudyn_comes_near_the_run_up(name):
     found = judged(submission_of(entry, [CASES[name]]))
     (finding,) = found.findings[name].values()
     assert finding.outcome is not Outcome.DIFFERS, str(found)
+    assert "root_moment_x" in finding.note
     histories = found.histories[name]
     assert histories.case.columns == (*TIP, *ROOT)
     assert np.abs(histories.differences[histories.finest]).max() < 1e-2

@@ -275,3 +275,26 @@ def test_data_made_anew_are_taken_with_the_digest_that_is_written(tmp_path, monk
     assert found != room.DIGEST
     monkeypatch.setattr(room, "DIGEST", found)
     assert shipped.__wrapped__().source.endswith("made at commit another")
+
+
+def test_what_the_file_has_stays_to_the_last_bit(monkeypatch):
+    """A case that is added costs its own time: nothing of the others is computed."""
+    for name in ("history", "table", "backbone"):
+        monkeypatch.setattr(references, name, None)  # not to be called
+    data = xr.load_dataset(room.FILE)
+    again = references.dataset("later", references.Kept(data))
+    assert again.attrs["commit"] == f"{data.attrs['commit']}, later"
+    assert again.assign_attrs(commit=data.attrs["commit"]).identical(data)
+
+
+def test_only_what_is_new_is_computed(monkeypatch):
+    data = xr.load_dataset(room.FILE)
+    kept = references.Kept(data.drop_sel(table="G+N"))
+    made = references.table(CASES["G+N"], Theory())
+    calls = []
+    monkeypatch.setattr(references, "table", lambda *one: calls.append(one[0].name) or made)
+    for name, one in references.shipped_tables().items():
+        rows, bound = kept.table(*one)
+        assert rows.shape[0] == len(one[0].speeds), name
+        assert bound < 1e-5
+    assert calls == ["G+N"]

@@ -25,6 +25,8 @@ MODULES = "cmake", "modules/nwtc-library", "modules/version", "modules/beamdyn"
 SHEAR, TURNING = 100.0, 1e-3
 """GA over EA, and rotary inertia over m EI/EA: of a beam that hardly shears, as slender ones."""
 
+AXES = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
 STATIONS = 49
 """Stations of the table as it is used, those of NREL's 5 MW blade."""
 
@@ -49,12 +51,45 @@ def row(values) -> str:
     return " ".join(f"{value:.15E}" for value in values)
 
 
+def driver_lines(
+    omega: float, h: float, end: float, weight: Sequence[float], hub: float, frame=AXES
+) -> list[str]:
+    """Return the driver's file: of a root at a hub, with a frame's rows as axes, about x."""
+    zeros = ["0 zero"] * 6
+    return [
+        "-", "-", "-", "True DynamicSolve", "0 t_initial", f"{end} t_final", f"{h} dt", "-",
+        *(f"{one} g" for one in weight), "-", *zeros[:2], f"{hub} GlbPos(3)", "-", "-",
+        *map(row, frame), "True GlbRotBladeT0", "-", f"{omega} RootVel(4)", *zeros[:2], "-",
+        *zeros, *zeros, "0 NumPointLoads", "-", "-", "-", '"primary.inp" InputFile', "-",
+        "0 WrVTK", "15 VTK_fps",
+    ]  # fmt: skip
+
+
+def primary_lines(
+    keys: Sequence[Sequence[float]], members: int, degree: int, h: float, *,
+    rho: float = 0.9, quadrature: int = 1, settled: bool = False,
+) -> list[str]:  # fmt: skip
+    """Return the primary file: of key points x, y, z [m] and twist [deg], three a member."""
+    return [
+        "-", "-", "-", "False Echo", f"{settled} QuasiStaticInit", f"{rho} rhoinf",
+        f"{quadrature} quadrature", "1 refine", "1 n_fact", f"{h} DTBeam",
+        '"DEFAULT" load_retries', "20 NRMax",
+        "1e-6 stop_tol", "False tngt_stf_fd", "False tngt_stf_comp",
+        '"DEFAULT" tngt_stf_pert', '"DEFAULT" tngt_stf_difftol', "True RotStates", "-",
+        f"{members} member_total", f"{len(keys)} kp_total",
+        *(f"{k + 1} 3" for k in range(members)), "-", "-", *map(row, keys),
+        "-", f"{degree} order_elem", "-", '"blade.inp" BldFile', "-", "False SumPrint",
+        '"ES23.15E3" OutFmt', "1 NNodeOuts", "1 OutNd", "OutList",
+        *(f'"Tip{kind}D{axis}r"' for kind in "TR" for axis in "xyz"), "END", "-",
+    ]  # fmt: skip
+
+
 def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str, list[str]]:
     """Return the driver's file, the primary one and that of the sections.
 
     Its z is along the blade, its x the axis of rotation and its y against q.
     """
-    beam, end = case.blade, case.duration
+    beam = case.blade
     weight = sum(load.gravity for load in case.loads)
     damping = beam.damping.bending
     stations = np.linspace(0.0, 1.0, STATIONS if used else 2)
@@ -69,28 +104,13 @@ def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str,
         )
         for line in (*np.diag(diagonal), ())
     ]
-    zeros = ["0 zero"] * 6
+    keys = [(0.0, 0.0, x * beam.length, -x * np.degrees(twist)) for x in (0.0, 0.5, 1.0)]
+    how = {"rho": 0.0, "quadrature": 2} if used else {}
     return {
-        "driver.inp": [
-            "-", "-", "-", "True DynamicSolve", "0 t_initial", f"{end} t_final", f"{h} dt", "-",
-            "0 g", f"{weight} g", "0 g", "-", *zeros[:2], f"{beam.hub_radius} GlbPos(3)", "-", "-",
-            *(row(line) for line in np.eye(3)),
-            "True GlbRotBladeT0", "-", f"{case.rotation.omega} RootVel(4)", *zeros[:2], "-",
-            *zeros, *zeros, "0 NumPointLoads", "-", "-", "-", '"primary.inp" InputFile', "-",
-            "0 WrVTK", "15 VTK_fps",
-        ],
-        "primary.inp": [
-            "-", "-", "-", "False Echo", "False QuasiStaticInit", f"{0.0 if used else 0.9} rhoinf",
-            f"{2 if used else 1} quadrature", "1 refine", "1 n_fact", f"{h} DTBeam",
-            '"DEFAULT" load_retries', "20 NRMax",
-            "1e-6 stop_tol", "False tngt_stf_fd", "False tngt_stf_comp",
-            '"DEFAULT" tngt_stf_pert', '"DEFAULT" tngt_stf_difftol', "True RotStates", "-",
-            "1 member_total", "3 kp_total", "1 3", "-", "-",
-            *(row((0.0, 0.0, x * beam.length, -x * np.degrees(twist))) for x in (0.0, 0.5, 1.0)),
-            "-", f"{degree} order_elem", "-", '"blade.inp" BldFile', "-", "False SumPrint",
-            '"ES23.15E3" OutFmt', "1 NNodeOuts", "1 OutNd", "OutList",
-            *(f'"Tip{kind}D{axis}r"' for kind in "TR" for axis in "xyz"), "END", "-",
-        ],
+        "driver.inp": driver_lines(
+            case.rotation.omega, h, case.duration, (0, weight, 0), beam.hub_radius
+        ),
+        "primary.inp": primary_lines(keys, 1, degree, h, **how),
         "blade.inp": [
             "-", "-", "-", f"{stations.size} station_total", f"{int(damping > 0.0)} damp_type", "-",
             "-", "-", row((0.0, 0.0, 0.0, damping, damping, 0.0)), "-",
@@ -98,6 +118,18 @@ def files(case: Case, degree: int, h: float, *, used: bool = False) -> dict[str,
             *(line for eta in stations for line in (f"{eta:.15f}", *matrices)),
         ],
     }  # fmt: skip
+
+
+def tip(folder: str | Path) -> tuple[np.ndarray, np.ndarray]:
+    """Return times, and lag, flap and twist of the tip from its unloaded place, (samples, 3)."""
+    lines = Path(folder, "driver.out").read_text().splitlines()
+    first = next(k for k, line in enumerate(lines) if line.strip().startswith("Time"))
+    time, up, against, _, *turned = np.loadtxt(lines[first + 2 :]).T
+    # Wiener and Milenkovic's parameters are 4 tan(φ/4) times the axis.
+    size = np.linalg.norm(turned, axis=0)
+    vector = np.array(turned) * 4.0 * np.arctan(size / 4.0) / np.maximum(size, 1e-300)
+    twist = twist_of(Rotation.from_rotvec((vector[::-1] * [[1.0], [-1.0], [1.0]]).T))
+    return time, np.stack((-against, up, twist), axis=1)
 
 
 def history(case: Case, degree: int, h: float, *, used: bool = False):
@@ -108,16 +140,8 @@ def history(case: Case, degree: int, h: float, *, used: bool = False):
             Path(folder, name).write_text("\n".join(lines) + "\n")
         ramp = {**os.environ, "RAMP_T": repr(case.rotation.ramp_time)}
         output_of([program, "driver.inp"], cwd=folder, env=ramp)
-        lines = Path(folder, "driver.out").read_text().splitlines()
-    first = next(k for k, line in enumerate(lines) if line.strip().startswith("Time"))
-    time, up, against, _, *turned = np.loadtxt(lines[first + 2 :]).T
-    if len(case.columns) == 1:
-        return sampled(case, time, -against)
-    # Wiener and Milenkovic's parameters are 4 tan(φ/4) times the axis.
-    size = np.linalg.norm(turned, axis=0)
-    vector = np.array(turned) * 4.0 * np.arctan(size / 4.0) / np.maximum(size, 1e-300)
-    twist = twist_of(Rotation.from_rotvec((vector[::-1] * [[1.0], [-1.0], [1.0]]).T))
-    return sampled(case, time, np.stack((-against, up, twist), axis=1))
+        time, found = tip(folder)
+    return sampled(case, time, found[:, 0] if len(case.columns) == 1 else found)
 
 
 def take_part_as(

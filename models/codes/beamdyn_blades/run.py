@@ -8,24 +8,23 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from common import output_of, take_part, twist_of
+from common import output_of, take_part
 
-from analytic import Theory, steady_state
-from rotbeam_exu.files.openfast import blade_file_of, write_beamdyn
+from analytic import Theory
+from analytic.exact.continuum.unit import space_unit
+from rotbeam_exu.files.openfast import write_beamdyn
 from rotbeam_exu.verification.case import Asked, Case
 from rotbeam_exu.verification.cases import CASES, SHEAR
 from rotbeam_exu.verification.submission import Declaration, Row
 
 beamdyn = runpy.run_path(str(Path(__file__).parents[1] / "beamdyn/run.py"))
-row = beamdyn["row"]
 
 DEGREES = 2, 3, 4
 """Degrees of the polynomials of a member."""
 
-STEP = 1e-3  # of the two that the driver makes; the first line of its table is what is asked
+STEP = 1e-3  # of the driver, whose first line of results is read alone
 
 
 def write(folder: Path, case: Case, degree: int, omega: float) -> None:
@@ -37,44 +36,32 @@ def write(folder: Path, case: Case, degree: int, omega: float) -> None:
     each = 2 if blade.line.prebend == 0.0 else 4
     places = np.arange(each * (stations.size - 1) + 1) / each
     x = np.interp(places, np.arange(stations.size), stations)
-    line = steady_state(blade, 0.0).section_loads(x).place[:, [2, 1, 0]] * [1.0, -1.0, 1.0]
+    line = blade.length * space_unit(blade).unloaded(x / blade.length)[0]
     twist = np.interp(x, *np.array(blade.line.twist).T)
-    count = (x.size - 1) // 2
+    keys = np.column_stack((line[:, [2, 1, 0]] * [1.0, -1.0, 1.0], -np.degrees(twist)))
     cosine, sine = np.cos(blade.line.precone), np.sin(blade.line.precone)
     frame = [[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]]
-    zeros, weight = ["0 zero"] * 6, 0.0 if modes else -9.81
-    driver = [
-        "-", "-", "-", "True DynamicSolve", "0 t_initial", f"{2.0 * STEP} t_final", f"{STEP} dt",
-        "-", f"{weight} g", "0 g", "0 g", "-", *zeros[:2], f"{blade.hub_radius} GlbPos(3)", "-",
-        "-", *map(row, frame), "True GlbRotBladeT0", "-", f"{omega} RootVel(4)", *zeros[:2], "-",
-        *zeros, *zeros, "0 NumPointLoads", "-", "-", "-", '"primary.inp" InputFile', "-",
-        "0 WrVTK", "15 VTK_fps",
-    ]  # fmt: skip
-    primary = [
-        "-", "-", "-", "False Echo", f"{not modes} QuasiStaticInit", "0.9 rhoinf",
-        "1 quadrature", "1 refine", "1 n_fact", f"{STEP} DTBeam", '"DEFAULT" load_retries',
-        "50 NRMax", "1e-6 stop_tol", "False tngt_stf_fd", "False tngt_stf_comp",
-        '"DEFAULT" tngt_stf_pert', '"DEFAULT" tngt_stf_difftol', "True RotStates", "-",
-        f"{count} member_total", f"{x.size} kp_total", *(f"{k + 1} 3" for k in range(count)),
-        "-", "-", *(row((*at, -np.degrees(t))) for at, t in zip(line, twist, strict=True)), "-",
-        f"{degree} order_elem", "-", f'"{blade_file_of(folder / "b.dat").name}" BldFile', "-",
-        "False SumPrint", '"ES23.15E3" OutFmt', "1 NNodeOuts", "1 OutNd", "OutList",
-        *(f'"Tip{kind}D{axis}r"' for kind in "TR" for axis in "xyz"), "END", "-",
-    ]  # fmt: skip
-    write_beamdyn(blade, folder / "b.dat")
-    for name, lines in (("driver.inp", driver), ("primary.inp", primary)):
+    weight = (0.0 if modes else -9.81, 0, 0)
+    for name, lines in (
+        ("driver.inp", beamdyn["driver_lines"](
+            omega, STEP, 2.0 * STEP, weight, blade.hub_radius, frame
+        )),
+        ("primary.inp", beamdyn["primary_lines"](
+            keys, (x.size - 1) // 2, degree, STEP, settled=not modes
+        )),
+    ):  # fmt: skip
         (folder / name).write_text("\n".join(lines) + "\n")
+    _, sections = write_beamdyn(blade, folder / "b.dat")
+    text = sections.read_text()
     if modes:  # it prints frequencies where it damps by modes
-        sections = blade_file_of(folder / "b.dat")
-        text = sections.read_text()
         for name, value in (
             ("damp_type", "2"), ("n_modes", f"{case.count}"), ("zeta", "0.01 " * case.count)
         ):  # fmt: skip
             text = re.sub(rf"^[\d. ]*(?={name} )", f"{value} ", text, flags=re.MULTILINE)
-        sections.write_text(text)
+    (folder / "blade.inp").write_text(text)
 
 
-def numbers(case: Case, degree: int, omega: float):
+def numbers(case: Case, degree: int, omega: float) -> list[float]:
     """Return frequencies [rad/s] at rest, or the steady tip, by its quasi-static start."""
     program = beamdyn["driver"]()
     plain = {key: value for key, value in os.environ.items() if key != "RAMP_T"}
@@ -86,15 +73,10 @@ def numbers(case: Case, degree: int, omega: float):
             (table,) = folder.glob("*modes.csv")
             lines = table.read_text().splitlines()[1 : 1 + case.count]
             return [2.0 * np.pi * float(line.split()[0]) for line in lines]
-        lines = (folder / "driver.out").read_text().splitlines()
-    first = next(k for k, line in enumerate(lines) if line.strip().startswith("Time"))
-    _, up, against, _, *turned = np.loadtxt(lines[first + 2 :])[0]
-    # Wiener and Milenkovic's parameters are 4 tan(φ/4) times the axis.
-    size = np.linalg.norm(turned)
-    x, y, z = np.array(turned) * 4.0 * np.arctan(size / 4.0) / size
-    (twist,) = twist_of(Rotation.from_rotvec([[z, -y, x]]))
-    _, lag, flap = steady_state(case.blade, 0.0).tip
-    return [lag - against, flap + up, twist]
+        lag, flap, twist = beamdyn["tip"](folder)[1][0].tolist()
+    (unloaded,), _ = space_unit(case.blade).unloaded(np.ones(1))
+    _, y, z = (case.blade.length * unloaded).tolist()
+    return [y + lag, z + flap, twist]
 
 
 def rows() -> list[Row]:
