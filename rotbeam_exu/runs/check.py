@@ -97,8 +97,8 @@ def whole_steps(duration: float, step: float) -> int:
     if steps < 1 or abs(steps * step - duration) > 1e-9 * duration:
         steps = max(steps, 1)
         raise ValueError(
-            f"duration {duration:g} s is not a whole number of steps of {step:g} s; try a step of "
-            f"{duration / steps:.12g} s or a duration of {steps * step:.12g} s"
+            f"duration {duration:.12g} s is not a whole number of steps of {step:g} s; try a step "
+            f"of {duration / steps:.12g} s or a duration of {steps * step:.12g} s"
         )
     return steps
 

@@ -11,6 +11,7 @@ from analytic.exact.linear.modes import driven_modes
 from ..fem.case import RunCase
 from ..fem.elements import formulation
 from ..fem.linearization import Linearization, nearest
+from ..fem.mesh import Mesh
 from ..runs.oscillation import SteadyOscillation
 
 WORTH = 1e-2
@@ -47,8 +48,8 @@ class Assessment:
         The exact blade's mode whose frequency is nearest to that of the run: a twisted blade's tip
         may swing in flap. In the plane it is lag 1.
     omega_n, refined_omega_n, exact_omega_n : float
-        Natural frequency of the mesh, of one twice as fine, NaN of a very fine one, and of the
-        exact beam [rad/s].
+        Natural frequency of the mesh, of one twice as fine, and of the exact beam [rad/s]. That of
+        twice as fine is NaN where the mesh is very fine, or the blade has stations.
     amplitude, frequency : float
         Amplitude over L of the run, and its nonlinear frequency ω_NL [rad/s].
     exact_frequency : float
@@ -214,9 +215,12 @@ def assess(case: RunCase, steady: SteadyOscillation, *, exact: bool = True) -> A
         mesh = Linearization.of(case.blade, case.omega, model, elements)
         return mesh.frequency_near(exact_omega_n)
 
+    # Where sections jump between stations a coarse mesh has no order yet.
+    smooth = Mesh(blade=case.blade, elements=case.elements).stations.size == 2
     return Assessment(
         theory=theory.name, mode=modes.names[place], omega_n=omega_n(case.elements),
-        refined_omega_n=omega_n(2 * case.elements), exact_omega_n=exact_omega_n,
+        refined_omega_n=omega_n(2 * case.elements) if smooth else math.nan,
+        exact_omega_n=exact_omega_n,
         amplitude=steady.amplitude, frequency=steady.frequency, exact_frequency=exact_frequency,
         why_not=why_not,
     )  # fmt: skip

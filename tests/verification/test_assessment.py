@@ -10,6 +10,7 @@ from analytic import Beam, SpinUp, linear_modes, periodic_orbits
 from rotbeam_exu.fem.case import RunCase
 from rotbeam_exu.fem.elements import Ancf3, Exact
 from rotbeam_exu.verification.assessment import assess
+from tests.beams import irregular
 
 OMEGA = 6.0
 
@@ -86,3 +87,18 @@ def test_an_orbit_that_cannot_be_had_is_a_line_and_no_failure():
     titles = dict(found.lines())
     assert titles["exact ω_NL"].startswith("cannot be had: ")
     assert found.warnings(4, 1e-3) == []
+
+
+@pytest.mark.filterwarnings("ignore:at x")  # of the trapeze effect
+def test_twice_the_elements_on_many_stations_are_no_sign_of_another_limit():
+    """16 elements cross the stations and 32 are cut by them, which leaves most of 1.8e-3."""
+    blade = irregular(3, 0.005, 27)
+    case = RunCase(
+        blade=blade, spin_up=SpinUp(omega=2.6, ramp_time=3.0), element="space_exact",
+        elements=16, duration=6.0, step=0.02,
+    )  # fmt: skip
+    exact = linear_modes(blade, 2.6, 1, theory=case.model.theory_of(blade)).frequencies[0]
+    swing = SimpleNamespace(frequency=exact, amplitude=0.01)
+    coarse, finer = (assess(replace(case, elements=n), swing, exact=False) for n in (16, 32))
+    assert finer.mesh_error > 0.5 * coarse.mesh_error
+    assert not coarse.elsewhere
