@@ -115,7 +115,8 @@ def lumped(mass: np.ndarray) -> str:
     m = mass[0, 0]
     center = np.array([mass[1, 5], mass[2, 3], mass[0, 4]]) / m
     cross = np.cross(np.eye(3), center)
-    return f"{float(m)!r}, {joined(center)}, matr, {joined(mass[3:, 3:] - m * cross @ cross.T)}"
+    inertia = mass[3:, 3:] - m * cross @ cross.T
+    return f"{float(m)!r}, {joined(center)}, matr, {joined(0.5 * (inertia + inertia.T))}"
 
 
 def sections(blade: Blade) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -156,3 +156,22 @@ def test_tolerances_out_of_reach_are_refused(tolerance):
     for verb in (linear_modes, steady_state):
         with pytest.raises((ValueError, TypeError), match="tolerance"):
             verb(irregular(3, 0.001, 4), 4.0, tolerance=tolerance)
+
+
+@pytest.mark.filterwarnings("ignore:at x")  # of the trapeze effect, which MBDyn has not
+@pytest.mark.parametrize(
+    ("table", "frequencies"),
+    [
+        ((2, 0.03, 9), (2.678371, 4.139866, 6.003401, 8.521109, 15.17584, 17.37809)),
+        ((4, 0.005, 16), (3.028772, 5.578425, 7.774819, 8.871129, 16.7923, 22.3205)),
+        ((7, 0.01, 6), (2.881322, 5.03304, 7.272182, 8.616821, 16.41816, 20.1421)),
+    ],
+)
+def test_another_code_has_the_modes_of_irregular_tables_in_rotation(table, frequencies):
+    """MBDyn 1.7.3: 8 and 16 beams between two stations, extrapolated by the square of their length.
+
+    As `models/codes/mbdyn_blades`; its own change from 4 and 8 beams is up to 4e-6.
+    """
+    theory = Theory(shear=True, rotary_inertia=True, trapeze=False)
+    modes = linear_modes(irregular(*table), 2.6, 6, theory=theory)
+    assert modes.frequencies == pytest.approx(frequencies, rel=1e-6)
