@@ -91,6 +91,19 @@ def test_docstrings_and_messages_have_the_words_of_the_field(said, pattern):
     assert len(found) <= NAMES.get(pattern, 0), found
 
 
+# Verbs that do the work of ten, and nouns that are saved: counts that may only fall.
+HABITS = {
+    r"that of|those of": 128, r"has|have": 420, r"takes?|took|taken": 165,
+    r"leaves?|left": 154, r"holds?|held": 56, r"refuses?|refused": 106,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("pattern", HABITS)
+def test_habits_in_docstrings_and_messages_only_fall(said, pattern):
+    found = sum(len(re.findall(rf"\b(?:{pattern})\b", text, re.IGNORECASE)) for text in said)
+    assert found <= HABITS[pattern]
+
+
 def test_both_can_fail():
     code = "```text\n" + "word " * 36 + "\n```\n"
     formula = "$$\n" + "x + " * 36 + "y\n$$\n"
