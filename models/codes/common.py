@@ -25,7 +25,7 @@ from scipy.spatial.transform import Rotation
 
 from analytic import Blade
 from analytic.arrays import ComplexArray, FloatArray
-from rotbeam_exu.verification.case import Case
+from rotbeam_exu.verification.case import Asked, Case
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.judgement import Judgement, judged
 from rotbeam_exu.verification.kit import STATIC, cases_csv
@@ -75,6 +75,35 @@ def bends_in_space(blade: Blade) -> tuple[float, float, float]:
     if out is None:
         return EI, EI, 0.0
     return out.bending_ratio * EI, out.torsion_ratio * EI, float(np.ravel(blade.line.twist)[-1])
+
+
+def root_axes(blade: Blade) -> FloatArray:
+    """Return the axes of the root, in columns, where z is the axis of rotation and x radial."""
+    cosine, sine = np.cos(blade.line.precone), np.sin(blade.line.precone)
+    return np.array([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]])
+
+
+def rows_of(
+    numbers: Callable[[Case, int, float], Sequence[float]],
+    meshes: Sequence[int],
+    speeds: Mapping[str, Sequence[float]],
+) -> list[Row]:
+    """Return the rows of tables in space: (case, elements, speed [rad/s]) -> their values."""
+    made = []
+    for name, several in speeds.items():
+        case = CASES[name]
+        for speed in several:
+            for elements in meshes:
+                found = numbers(case, elements, speed)
+                print(name, speed, elements, found, flush=True)
+                row = Row(case=name, elements=elements, speed=speed, values=tuple(found))
+                if case.asked is Asked.STEADY or case.count == 1:
+                    made.append(row)
+                else:
+                    made += [
+                        replace(row, number=k, values=(one,)) for k, one in enumerate(found, 1)
+                    ]
+    return made
 
 
 def twist_of(turns: Rotation) -> FloatArray:

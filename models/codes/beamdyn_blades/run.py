@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from common import output_of, take_part
+from common import output_of, root_axes, rows_of, take_part
 
 from analytic import Theory
 from analytic.exact.continuum.unit import space_unit
 from rotbeam_exu.files.openfast import write_beamdyn
 from rotbeam_exu.verification.case import Asked, Case
 from rotbeam_exu.verification.cases import CASES, SHEAR
-from rotbeam_exu.verification.submission import Declaration, Row
+from rotbeam_exu.verification.submission import Declaration
 
 beamdyn = runpy.run_path(str(Path(__file__).parents[1] / "beamdyn/run.py"))
 
@@ -39,8 +39,8 @@ def write(folder: Path, case: Case, degree: int, omega: float) -> None:
     line = blade.length * space_unit(blade).unloaded(x / blade.length)[0]
     twist = np.interp(x, *np.array(blade.line.twist).T)
     keys = np.column_stack((line[:, [2, 1, 0]] * [1.0, -1.0, 1.0], -np.degrees(twist)))
-    cosine, sine = np.cos(blade.line.precone), np.sin(blade.line.precone)
-    frame = [[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]]
+    # BeamDyn has up and radial in exchanged places, for which the matrix is the same.
+    frame = root_axes(blade)
     weight = (0.0 if modes else -9.81, 0, 0)
     for name, lines in (
         ("driver.inp", beamdyn["driver_lines"](
@@ -79,24 +79,6 @@ def numbers(case: Case, degree: int, omega: float) -> list[float]:
     return [y + lag, z + flap, twist]
 
 
-def rows() -> list[Row]:
-    """Return all rows; at speed its frequencies lack Coriolis forces, so those at rest alone."""
-    made = []
-    for name in ("F+N", "G+N", "F+I", "G+I"):
-        case = CASES[name]
-        steady = case.asked is Asked.STEADY
-        for omega in case.speeds if steady else (0.0,):
-            for degree in DEGREES:
-                found = numbers(case, degree, omega)
-                print(name, omega, degree, found, flush=True)
-                place = {"case": name, "elements": degree, "speed": omega}
-                if steady:
-                    made.append(Row(**place, values=tuple(found)))
-                else:
-                    made += [Row(**place, number=k, values=(f,)) for k, f in enumerate(found, 1)]
-    return made
-
-
 if __name__ == "__main__":
     if not beamdyn["SOURCES"]:
         print("BeamDyn is left out: set OPENFAST to a folder with OpenFAST's sources")
@@ -107,4 +89,9 @@ if __name__ == "__main__":
             theory=Theory(shear=SHEAR, rotary_inertia=True),
             element="a member between two stations, two on a curved line; elements are its degree",
         )  # fmt: skip
-        take_part(__file__, declaration, rows=rows())
+        # At speed its frequencies lack Coriolis forces, so those at rest alone.
+        speeds = {
+            name: CASES[name].speeds if CASES[name].asked is Asked.STEADY else (0.0,)
+            for name in ("F+N", "G+N", "F+I", "G+I")
+        }
+        take_part(__file__, declaration, rows=rows_of(numbers, DEGREES, speeds))

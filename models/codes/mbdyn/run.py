@@ -11,9 +11,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from common import bends_in_space, output_of, sampled, take_part, twist_of
+from common import bends_in_space, output_of, rows_of, sampled, take_part, twist_of
 
 from rotbeam_exu.verification.case import Case
+from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.submission import Declaration
 
 PROGRAM = os.environ.get("WITH_MBDYN", "")
@@ -116,6 +117,7 @@ if __name__ == "__main__":
     finer = [(32, 4e-3), (64, 4e-3), (128, 4e-3), (64, 2e-3), (64, 1e-3)]
     # Linearized, and at rest in the frame that turns, as for the real blades.
     blades = runpy.run_path(str(Path(__file__).parents[1] / "mbdyn_blades/run.py"))
-    tables = blades["rows"](("L", "F", "F+p", "P", "G"), (16, 32, 64))
+    speeds = {name: CASES[name].speeds for name in ("L", "F", "F+p", "P", "G")}
+    tables = rows_of(blades["numbers"], (16, 32, 64), speeds)
     histories = {**dict.fromkeys(cases, runs), "S4": finer}
     take_part(__file__, declaration, history, histories, rows=tables)

@@ -4,7 +4,6 @@ import os
 import re
 import sys
 import tempfile
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -15,7 +14,7 @@ from scipy.sparse.linalg import LinearOperator, eigs, splu
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from common import bends_in_space, output_of, sampled, take_part, twist_of
+from common import bends_in_space, output_of, root_axes, rows_of, sampled, take_part, twist_of
 
 from analytic import Blade, Theory
 from analytic.exact.continuum.unit import space_unit
@@ -23,7 +22,7 @@ from analytic.quadrature import gauss_points
 from analytic.station_section import StationSection
 from rotbeam_exu.verification.case import Asked, Case
 from rotbeam_exu.verification.cases import CASES, SHEAR
-from rotbeam_exu.verification.submission import Declaration, Row
+from rotbeam_exu.verification.submission import Declaration
 
 PROGRAM = os.environ.get("WITH_MBDYN", "")
 MEMBERS = 1, 2, 4
@@ -48,7 +47,7 @@ RADIUS = 0.6
 
 @dataclass(frozen=True)
 class Motion:
-    """What an input file says of time and of the frame, which turns about z."""
+    """Time, and the motion of the frame, which turns about z, as an input file has them."""
 
     solver: str
     end: float
@@ -99,12 +98,6 @@ def run_up(case: Case, h: float) -> Motion:
     )  # fmt: skip
 
 
-def tilted(case: Case) -> np.ndarray:
-    """Return the axes of the root, in columns, in the frame that turns."""
-    cosine, sine = np.cos(case.blade.line.precone), np.sin(case.blade.line.precone)
-    return np.array([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]])
-
-
 def joined(values) -> str:
     """Return numbers as MBDyn reads them."""
     return ", ".join(f"{value!r}" for value in np.ravel(values).tolist())
@@ -149,7 +142,7 @@ def model(case: Case, each: int, motion: Motion) -> list[str]:
     ends = np.unique(np.concatenate([np.linspace(a, b, each + 1) for a, b in pairwise(table)]))
     middle, half = 0.5 * (ends[1:] + ends[:-1]), 0.5 * np.diff(ends)
     x = np.sort(np.concatenate((ends, middle)))
-    (place, axes), root = unloaded(blade, x), tilted(case)
+    (place, axes), root = unloaded(blade, x), root_axes(blade)
     place, axes = place @ root.T + [blade.hub_radius, 0.0, 0.0], root @ axes
 
     def linear(matrices: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -201,7 +194,7 @@ def computed(case: Case, each: int, motion: Motion) -> tuple[np.ndarray, str]:
         moment = np.loadtxt(Path(folder, "blade.jnt"), usecols=range(10, 13))
         eigen = Path(folder, "blade_0.m")
         text = eigen.read_text() if eigen.exists() else ""
-    root, hub = tilted(case), [case.blade.hub_radius, 0.0, 0.0]
+    root, hub = root_axes(case.blade), [case.blade.hub_radius, 0.0, 0.0]
     place, turn = (tip[:, :3] - hub) @ root, Rotation.from_rotvec(tip[:, 3:])
     back = Rotation.from_matrix(root.T)
     twist = twist_of(back * turn * turn[0].inv() * back.inv())
@@ -241,23 +234,6 @@ def frequencies(text: str, count: int) -> list[float]:
     return sorted(found.imag[found.imag > 1e-3 * found.imag.max()].tolist())[:count]
 
 
-def rows(names: Sequence[str], meshes: Sequence[int]) -> list[Row]:
-    """Return the rows of tables, of so many beams between two stations."""
-    made = []
-    for name in names:
-        case = CASES[name]
-        for omega in case.speeds:
-            for each in meshes:
-                found = numbers(case, each, omega)
-                print(name, omega, each, found, flush=True)
-                place = {"case": name, "elements": each, "speed": omega}
-                if case.asked is Asked.STEADY or case.count == 1:
-                    made.append(Row(**place, values=tuple(found)))
-                else:
-                    made += [Row(**place, number=k, values=(f,)) for k, f in enumerate(found, 1)]
-    return made
-
-
 if __name__ == "__main__":
     if not PROGRAM:
         print("MBDyn is left out: set WITH_MBDYN to its program")
@@ -269,5 +245,6 @@ if __name__ == "__main__":
             element="beam3, three nodes, lumped bodies; elements are beams between two stations",
         )  # fmt: skip
         runs = [(1, 5e-3), (2, 5e-3), (4, 5e-3), (2, 2.5e-3), (2, 1.25e-3)]
-        tables = rows(("F+N", "G+N", "F+I", "G+I"), MEMBERS)
+        speeds = {name: CASES[name].speeds for name in ("F+N", "G+N", "F+I", "G+I")}
+        tables = rows_of(numbers, MEMBERS, speeds)
         take_part(__file__, declaration, history, dict.fromkeys(("W+N", "W+I"), runs), rows=tables)
