@@ -192,19 +192,40 @@ def test_a_run_whose_errors_cancel_makes_no_cost_lower():
     assert code.cost(1e-3) > 0.98 * honest.cost(1e-3)
 
 
+OPEN = {"calculix", "chrono_iga"}
+"""Codes with an order that is open by more than one, or was not measured."""
+
+
+def costs_without_a_run(name):
+    """Return the costs of 1e-3 without any one run but the finest, over that of all."""
+    code = code_of(name)
+    return [
+        without(code, lambda one, run=run: one.file == run.file).cost(1e-3) / code.cost(1e-3)
+        for run in code.found.histories["S1"].runs[:-1]
+    ]
+
+
 @pytest.mark.slow
 # As it is used, BeamDyn's limit is open by all of q, so that it has no cost.
 @pytest.mark.parametrize(
-    "name", [one for one in NAMES if one != "beamdyn_as_used" and has(one, "S1")]
+    "name",
+    [
+        pytest.param(one, marks=[pytest.mark.xfail(strict=True)] * (one in OPEN))
+        for one in NAMES
+        if one != "beamdyn_as_used" and has(one, "S1")
+    ],
 )
 def test_no_single_run_makes_the_cost(name):
     """Without any one run but the finest the cost is the same, to the factor that the page has."""
-    code = code_of(name)
-    # An order is open by more than one, or was not measured.
-    factor = 3.0 if name in {"calculix", "chrono_iga"} else 2.0
-    for run in code.found.histories["S1"].runs[:-1]:
-        fewer = without(code, lambda one, run=run: one.file == run.file)
-        assert 1.0 / factor < fewer.cost(1e-3) / code.cost(1e-3) < factor
+    for ratio in costs_without_a_run(name):
+        assert 0.5 < ratio < 2.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(OPEN))
+def test_a_cost_with_an_open_order_is_known_to_a_factor_of_three(name):
+    for ratio in costs_without_a_run(name):
+        assert 1.0 / 3.0 < ratio < 3.0
 
 
 def test_a_cost_is_that_of_the_least_work_with_the_error():
