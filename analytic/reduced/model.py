@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..arrays import FloatArray, NumbersT, lone_as_float
 from ..blade import Blade
 from ..input_checks import finite_array, finite_number, not_negative
+from ..theory import BERNOULLI_EULER, Theory
 from ..warning import warn
 from .any_blade import NormalMode, normal_mode
 from .oscillator import Oscillator, Perturbation
@@ -37,6 +38,11 @@ class ReducedModel:
     omega: float
     variant: Variant
     oscillator: Oscillator
+
+    @property
+    def theory(self) -> Theory:
+        """Slices without shear and rotary inertia, which stretch in some variants."""
+        return BERNOULLI_EULER
 
     @property
     def speed_ratio(self) -> float:

@@ -11,28 +11,33 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.driven.forced_orbits import ForcedResponse
+from ..exact.driven.response import SpinUpResponse
 from ..exact.free.orbits import Orbits
 from ..exact.linear.families import LinearModes
 from ..exact.linear.steady_state import SteadyState
 from ..input_checks import shown
 from ..plotting import tornado
+from ..reduced.model import ReducedModel
 from ..theory import Theory
 from ..threads import one_thread
 from .frequencies import FrequencyDerivatives
+from .models import ModelDerivatives
 from .orbits import OrbitDerivatives, ResponseDerivatives
 from .parameters import Parameter, parameters_by, parameters_of
+from .spin_ups import SpinUpDerivatives
 from .steady import SteadyDerivatives
 
 if TYPE_CHECKING:
     from ..plotting import Axes
 
-Answer = LinearModes | SteadyState | Orbits | ForcedResponse
+Answer = LinearModes | SteadyState | Orbits | ForcedResponse | SpinUpResponse | ReducedModel
 
 
 class Derivatives(Protocol):
     """Derivatives of the numbers of an answer."""
 
     parameters: dict[str, Parameter]
+    conditions: dict[str, Parameter]
     outputs: tuple[str, ...]
     units: tuple[str, ...]
     values: FloatArray
@@ -40,8 +45,8 @@ class Derivatives(Protocol):
     def __init__(self, answer: Any) -> None:
         """Take the answer's own tangent."""
 
-    def to(self, parameter: Parameter) -> FloatArray:
-        """Return those of all numbers to one of `parameters`, in their units."""
+    def columns(self, several: Sequence[Parameter]) -> FloatArray:
+        """Return derivatives of all numbers to `parameters`, in their units, (numbers, n)."""
 
 
 _KINDS: dict[type, type[Derivatives]] = {
@@ -49,6 +54,8 @@ _KINDS: dict[type, type[Derivatives]] = {
     SteadyState: SteadyDerivatives,
     Orbits: OrbitDerivatives,
     ForcedResponse: ResponseDerivatives,
+    SpinUpResponse: SpinUpDerivatives,
+    ReducedModel: ModelDerivatives,
 }
 
 
@@ -58,12 +65,15 @@ class Sensitivity:
 
     Attributes
     ----------
-    answer : LinearModes, SteadyState, Orbits or ForcedResponse
+    answer : LinearModes, SteadyState, Orbits, ForcedResponse, SpinUpResponse or ReducedModel
     outputs : tuple of str
         Its numbers: names of modes; "tip x" and so on in the frame of `steady_state`, "twist",
         and "root force x" and "root moment x" with which the blade acts on the clamp; of orbits
         "frequency at a = 0.1", and "softening at a = 0.1", (1 - ω_NL/ω_n)/a²; of a forced response
         "peak at 3.7 rad/s", |q|/L at the frequencies given, and where it is greatest or least.
+        Of a spin-up "largest tip x" and so on, the value farthest from zero; "swing after the
+        ramp", half of the tip's lag from peak to peak; and "tip x at 1.5 s" at each of its times.
+        Of a reduced model "omega_n", "lambda_omega", "lambda_x" and "kappa".
     units : tuple of str
         Of the outputs.
     values : ndarray (outputs,)
@@ -95,8 +105,9 @@ class Sensitivity:
 
     @property
     def omega(self) -> Any:
-        """Its rotation speed [rad/s], of a forced response at all its points."""
-        return self.answer.omega
+        """Its rotation speed [rad/s], of a forced response at all its points, after a spin-up."""
+        answer = self.answer
+        return answer.spin_up.omega if isinstance(answer, SpinUpResponse) else answer.omega
 
     @property
     def theory(self) -> Theory:
@@ -153,23 +164,25 @@ def place_of(name: str | None, among: Sequence[str]) -> int:
 def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sensitivity:
     """Return how an exact answer changes with the numbers of its blade.
 
-    Frequencies of modes; tip, twist and root loads of a steady state; frequencies of orbits at
-    their amplitudes; peaks of a forced response in the plane. By the answer's own tangent, at the
-    same speed and under the same loads. Nothing is solved anew. Modes in the plane of bending alone
-    where the section out of it is unknown.
+    Frequencies of modes; tip, twist and root loads of a steady state and of a spin-up over time;
+    frequencies of orbits at their amplitudes; peaks of a forced response; numbers of a reduced
+    model. By the answer's own tangent. Nothing is solved anew but what starts a motion. Modes in
+    the plane of bending alone where the section out of it is unknown.
 
     Parameters
     ----------
-    answer : LinearModes, SteadyState, Orbits or ForcedResponse
+    answer : LinearModes, SteadyState, Orbits, ForcedResponse, SpinUpResponse or ReducedModel
         Of `linear_modes`, where a mode that meets another at its frequency has no derivative; of
-        `steady_state`, `periodic_orbits` or `forced_response`.
+        `steady_state`, `periodic_orbits`, `forced_response`, `spin_up_response`, `reduced_model`.
     parameters : iterable of str, optional
-        Names out of `parameters_of`; all, unless given.
+        Names out of `parameters_of`, and numbers of the motion and the loads: "omega" [rad/s],
+        "ramp_time" [s] and "start" [rad/s], where they are given, and "loads[0]", a factor of the
+        first load. All, unless given; of a spin-up those of the whole blade.
 
     Raises
     ------
     ValueError
-        If the blade has no parameter of a name, or a forced response leaves the plane.
+        If the answer has no parameter of a name.
 
     Examples
     --------
@@ -185,18 +198,22 @@ def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sens
     kind = _KINDS.get(type(answer))
     if kind is None:
         raise TypeError(
-            "answer must be what linear_modes, steady_state, periodic_orbits or forced_response "
-            f"returns, got {shown(answer)}"
+            "answer must be what linear_modes, steady_state, periodic_orbits, forced_response, "
+            f"spin_up_response or reduced_model returns, got {shown(answer)}"
         )
     found = kind(answer)
-    known = {name: found.parameters[name] for name in parameters_of(answer.blade, answer.theory)}
-    several = parameters_by("parameters", known if parameters is None else parameters, known)
-    columns = [found.to(one) for one in several]
+    of_blade = parameters_of(answer.blade, answer.theory)
+    known = {name: found.parameters[name] for name in of_blade if name in found.parameters}
+    known |= found.conditions
+    if parameters is None:  # each costs a spin-up a sweep over all its nodes
+        dear = isinstance(answer, SpinUpResponse)
+        parameters = [name for name, one in known.items() if not (dear and one.family)]
+    several = parameters_by("parameters", parameters, known)
     return Sensitivity(
         answer=answer,
         outputs=found.outputs,
         units=found.units,
         values=found.values,
         parameters=tuple(several),
-        derivatives=np.reshape(columns, (len(several), len(found.outputs))).T,
+        derivatives=found.columns(several).reshape(len(found.outputs), len(several)),
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,8 +20,13 @@ SWING = 5e-3
 """Size of strains of energy one: of sums of their squares the fourth power is left."""
 AROUND = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 """Steps of a central difference, and weights, of which the fourth power is left."""
-_AHEAD = np.array([0.0, 1.0, 2.0]), np.array([-1.5, 2.0, -0.5])
-_BOTH = np.array([-1.0, 1.0]), np.array([-0.5, 0.5])
+FEW = (
+    (np.array([-1.0, 1.0]), np.array([-0.5, 0.5])),
+    (np.array([0.0, 1.0, 2.0]), np.array([-1.5, 2.0, -0.5])),
+)
+FINE = AROUND, (np.arange(5.0), np.array([-25.0, 48.0, -36.0, 16.0, -3.0]) / 12.0)
+"""Steps and weights of differences to both sides and ahead: the second power is left, the fourth.
+"""
 _CHANGE = 3e-4  # of a parameter over its size: 1e-7 of its square is left
 
 
@@ -36,12 +41,15 @@ class States(NamedTuple):
 
 
 def difference(
-    parameter: Parameter, values: Callable[[Blade], FloatArray], size: float = _CHANGE
-) -> FloatArray:
-    """Return the derivative of values of a blade to a parameter, by a change over its size."""
+    parameter: Parameter, values: Callable[[Any], FloatArray], size: float = _CHANGE,
+    schemes: Any = FEW,
+) -> FloatArray:  # fmt: skip
+    """Return the derivative of values of a blade to a parameter, by a change over its size.
+
+    Of a condition, of values of a motion and loads.
+    """
     change = size * parameter.size
-    ahead = parameter.value - 2.0 * change < parameter.least
-    steps, weights = _AHEAD if ahead else _BOTH
+    steps, weights = schemes[parameter.value - 2.0 * change < parameter.least]
     several = [values(parameter.changed(parameter.value + change * step)) for step in steps]
     return np.asarray(np.tensordot(weights, several, 1) / change)
 
@@ -105,13 +113,14 @@ class Energies:
         functions = frozen(self.model.functions, self.blade, blade)
         return np.concatenate(self.kernels.energies(functions), axis=1)
 
-    def anew(self, blade: Blade) -> FloatArray:
-        """Return all sums in any blade, without the work of loads."""
+    def anew(self, blade: Blade, omega: float | None = None) -> FloatArray:
+        """Return all sums in any blade, or at another speed [rad/s], without the work of loads."""
         model = SpaceContinuum(frozen(self.model.functions, self.blade, blade))
         masses, stiffness = model.masses, model.functions.stiffness
         sums = []
         for (q, q_dot, _, by, weights), squares in zip(self.states, self.squares, strict=True):
-            velocity, spin, turn, clamp = model.velocities(q, q_dot, by)
+            rate = by.rate if omega is None else omega / self.blade.frequency_scale
+            velocity, spin, turn, clamp = model.velocities(q, q_dot, by._replace(rate=rate))
             moved = velocity + cross(spin, masses.offset[:, None])
             twice = np.sum(moved**2, axis=0) @ masses.mass
             twice += np.einsum("isp,ijp,jsp->s", turn, masses.inertia, turn, optimize=True)

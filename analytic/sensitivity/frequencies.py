@@ -14,9 +14,10 @@ from ..exact.continuum.state import Driven
 from ..exact.linear.families import LinearModes
 from ..exact.linear.modes import linear_modes
 from ..input_checks import shown
+from ..motion import SteadyRotation
 from ..theory import Theory
 from .energies import AROUND, SWING, Energies, States, difference
-from .parameters import Parameter
+from .parameters import OneByOne, Parameter, conditions_of
 
 MOST = 24
 """Modes among which one is sought by its name."""
@@ -25,7 +26,7 @@ _PHASES = 8  # in a period: averages are exact up to the seventh harmonic
 _STIFF, _SAME = 1e4, 1e-4  # EI out of the plane over that in it, and what it may change
 
 
-class FrequencyDerivatives:
+class FrequencyDerivatives(OneByOne):
     """Derivatives of frequencies, from energies in states around the steady one."""
 
     def __init__(self, modes: LinearModes) -> None:
@@ -53,6 +54,9 @@ class FrequencyDerivatives:
         states = [self._around(k, shift, K) for k, shift in enumerate(shifts)]
         self._sums = Energies(self.model, modes.blade, modes.theory, states, squares)
         self.parameters = self._sums.parameters
+        self.conditions = conditions_of(
+            SteadyRotation(omega=modes.omega), unit=modes.blade.frequency_scale
+        )
 
     def _swings(self, k: int, size: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return a mode's q, q̇ and q̈ about the steady state over a period."""
@@ -89,12 +93,12 @@ class FrequencyDerivatives:
 
     def to(self, parameter: Parameter) -> FloatArray:
         """Return the derivatives of all frequencies [rad/s] to a parameter."""
-        slope = (
-            difference(parameter, self._sums.anew)
-            if parameter.moves
-            else self._sums.slopes(parameter)
-        )
-        return np.asarray(-self._sums.blade.frequency_scale * slope / self.slopes)
+        sums = self._sums
+        if parameter.name in self.conditions:
+            slope = difference(parameter, lambda other: sums.anew(sums.blade, other[0].omega))
+        else:
+            slope = difference(parameter, sums.anew) if parameter.moves else sums.slopes(parameter)
+        return np.asarray(-sums.blade.frequency_scale * slope / self.slopes)
 
 
 def require_modes(modes: object) -> None:

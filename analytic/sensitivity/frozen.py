@@ -8,6 +8,8 @@ for every stiffness and mass.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,11 +18,15 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.basis import Masses, StrainFunctions, Strains
-from ..exact.continuum.rotation import SteadyBlade
+from ..exact.continuum.loading import loaded
+from ..exact.continuum.planar_rotation import blade_continuum
+from ..exact.continuum.rotation import Model, SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.unit import space_unit
+from ..load import Load
 from ..quadrature import Grid
 from ..station_section import hat
+from ..theory import Theory
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -73,8 +79,10 @@ class FrozenFunctions(StrainFunctions):
 
     @cached_property
     def damping(self) -> FloatArray:
-        """None: energies are of free motion."""
-        return np.zeros((self.size, self.size))
+        """The viscous resistance of this blade to q̇, (n, n)."""
+        fields = np.moveaxis(np.concatenate((self.on_grid.gamma, self.on_grid.K)), 1, 0)
+        own = self.viscous(self.grid, self.soft, self.hard @ fields)
+        return np.asarray(math.sqrt(self.force * self.inertia) * own)
 
     @cached_property
     def masses(self) -> Masses:
@@ -83,7 +91,8 @@ class FrozenFunctions(StrainFunctions):
         return Masses(
             places=own.places, mass=self.inertia * own.mass, offset=own.offset,
             inertia=self.inertia * own.inertia, carried=self.inertia * own.carried,
-            whole=own.whole, drag=None,
+            whole=own.whole,
+            drag=None if own.drag is None else math.sqrt(self.force * self.inertia) * own.drag,
         )  # fmt: skip
 
 
@@ -102,6 +111,19 @@ def frozen_blade(steady: SteadyBlade, of: Blade, blade: Blade) -> SteadyBlade:
     """Return the equations of another blade in space, at the speed and loads of the blade `of`."""
     model = SpaceContinuum(frozen(steady.model.functions, of, blade))
     return replace(steady, model=model, near=steady.equilibrium, given=None)
+
+
+def model_of(
+    model: Model, of: Blade, theory: Theory, blade: Blade, loads: Sequence[Load] = ()
+) -> tuple[Model, Blade]:
+    """Return the discretization of another blade with the same coordinates, and its units' blade.
+
+    In space with the same strains, in the units of the blade `of`.
+    """
+    if isinstance(model, SpaceContinuum):
+        return SpaceContinuum(frozen(model.functions, of, blade)), of
+    bending, axial, *_ = model.families
+    return blade_continuum(blade, theory, bending, axial, loaded(loads, blade)), blade
 
 
 @dataclass(frozen=True)

@@ -17,23 +17,21 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.loading import unit_load
-from ..exact.continuum.planar_rotation import blade_continuum
 from ..exact.continuum.rotation import BladeOrbit, SteadyBlade
-from ..exact.continuum.space import SpaceContinuum
 from ..exact.driven.forced_orbits import ForcedResponse
 from ..exact.free.orbits import Orbits
 from ..methods.fourier import waves
 from ..methods.harmonic_balance import jacobian, projected
-from ..theory import Theory
+from ..motion import SteadyRotation
 from .energies import difference
 from .frequencies import FrequencyDerivatives, in_space, modes_until
-from .frozen import frozen_blade
-from .parameters import Parameter, parameters_of
+from .frozen import model_of
+from .parameters import OneByOne, Parameter, conditions_of, parameters_of
 
 _CHANGE = 1e-4  # of a parameter over its size
 
 
-class OrbitDerivatives:
+class OrbitDerivatives(OneByOne):
     """Derivatives of frequencies, and of softening (1 - ω_NL/ω_n)/a², at the orbits' amplitudes."""
 
     def __init__(self, orbits: Orbits) -> None:
@@ -46,6 +44,9 @@ class OrbitDerivatives:
         self.values = np.concatenate((orbits.frequency, (1.0 - self._over) / self._squares))
         self._orbits = orbits
         self.parameters = parameters_of(orbits.blade, orbits.theory)
+        self.conditions = conditions_of(
+            SteadyRotation(omega=orbits.omega), unit=orbits.blade.frequency_scale
+        )
         self._linear = _linear(orbits)
         self._rows = [_adjoint(orbit) for orbit in orbits.nondimensional]
 
@@ -57,31 +58,32 @@ class OrbitDerivatives:
         ]
         frequency = self._orbits.blade.frequency_scale * np.array(slopes)
         linear = self._linear
-        (of_linear,) = linear.to(linear.parameters[parameter.name]) / linear.values
+        own = (linear.parameters | linear.conditions)[parameter.name]
+        (of_linear,) = linear.to(own) / linear.values
         change = frequency / self._orbits.frequency - of_linear
         return np.concatenate((frequency, -self._over * change / self._squares))
 
-    def _defect(self, k: int, blade: Blade) -> FloatArray:
-        """Return λ·F of an orbit in another blade."""
+    def _defect(self, k: int, other: Any) -> FloatArray:
+        """Return λ·F of an orbit in another blade, or at another speed."""
         orbit = self._orbits.nondimensional[k]
-        system, unit = _system(orbit.system, self._orbits.blade, self._orbits.theory, blade)
-        return np.asarray(np.append(*_met(orbit, system, unit)) @ self._rows[k])
+        system, units = _system(orbit.system, self._orbits, other)
+        met = _met(orbit, system, self._orbits.blade.frequency_scale / units.frequency_scale)
+        return np.asarray(np.append(*met) @ self._rows[k])
 
 
-class ResponseDerivatives:
-    """Derivatives of the peaks of a forced response in the plane, where asked for and at maxima."""
+class ResponseDerivatives(OneByOne):
+    """Derivatives of the peaks of a forced response, where asked for and at maxima."""
 
     def __init__(self, response: ForcedResponse) -> None:
-        if any(isinstance(orbit.system.model, SpaceContinuum) for orbit in response.nondimensional):
-            raise ValueError(
-                "a forced response in space has no derivatives yet: its damping is not among them; "
-                "take differences of two responses"
-            )
         at = [k for k, mark in enumerate(response.marks) if mark in ("asked", "peak")]
         self.outputs = tuple(f"peak at {response.frequency[k]:.6g} rad/s" for k in at)
         self.units, self.values = ("1",) * len(at), response.amplitude[at]
         self._response, self._orbits = response, [response.nondimensional[k] for k in at]
         self.parameters = parameters_of(response.blade, response.theory)
+        omega = float(response.omega[0])
+        self.conditions = conditions_of(SteadyRotation(omega=omega), (response.load,))
+        if response.load.varied == "speed":
+            del self.conditions["omega"]  # it is given at every point
         self._rows = [
             np.linalg.solve(jacobian(orbit)[:-1, :-1].T, orbit.peak_gradient()[:-1])
             for orbit in self._orbits
@@ -92,13 +94,14 @@ class ResponseDerivatives:
         several = range(len(self._rows))
         return np.array([difference(parameter, partial(self._peak, k), _CHANGE) for k in several])
 
-    def _peak(self, k: int, blade: Blade) -> FloatArray:
-        """Return the peak less λ·F in another blade."""
+    def _peak(self, k: int, other: Any) -> FloatArray:
+        """Return the peak less λ·F in another blade, at another speed, or under another load."""
         response, orbit = self._response, self._orbits[k]
-        other, unit = _system(orbit.system, response.blade, response.theory, blade)
-        system: Any = other  # driven, as the response's
-        load = unit_load(blade, response.load)
-        harmonics, height = _met(orbit, replace(system, drive=load), unit)
+        driven, units = _system(orbit.system, response, other)
+        system: Any = driven
+        (load,) = (response.load,) if isinstance(other, Blade) else other[1]
+        unit = response.blade.frequency_scale / units.frequency_scale
+        harmonics, height = _met(orbit, replace(system, drive=unit_load(units, load)), unit)
         return np.asarray(height - harmonics @ self._rows[k])
 
 
@@ -120,16 +123,16 @@ def _adjoint(orbit: BladeOrbit) -> FloatArray:
 
 
 def _system(
-    system: SteadyBlade, of: Blade, theory: Theory, blade: Blade
-) -> tuple[SteadyBlade, float]:
-    """Return the same equations of another blade, and its unit of time over that of the orbits'."""
-    model = system.model
-    if isinstance(model, SpaceContinuum):
-        return frozen_blade(system, of, blade), 1.0
-    unit = of.frequency_scale / blade.frequency_scale
-    bending, axial, *_ = model.families
-    planar = blade_continuum(blade, theory, bending, axial)
-    return replace(system, model=planar, rate=unit * system.rate, near=None, given=None), unit
+    system: SteadyBlade, of: Orbits | ForcedResponse, other: Any
+) -> tuple[SteadyBlade, Blade]:
+    """Return the same equations of another blade or motion, and the blade of their units."""
+    blade, model, rate = of.blade, system.model, system.rate
+    if isinstance(other, Blade):
+        model, blade = model_of(model, blade, of.theory, other)
+        rate *= of.blade.frequency_scale / blade.frequency_scale
+    else:
+        rate = other[0].omega / blade.frequency_scale
+    return replace(system, model=model, rate=rate, near=system.equilibrium, given=None), blade
 
 
 def _linear(orbits: Orbits) -> FrequencyDerivatives:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from typing import Any
 
@@ -14,6 +14,8 @@ from ..arrays import FloatArray, in_units
 from ..blade import Blade
 from ..blade_checks import require_blade
 from ..input_checks import shown
+from ..load import Load
+from ..motion import Motion
 from ..station_section import MASSES, STIFFNESSES, StationSection, about_centers, hat, nested
 from ..theory import Theory, require_theory
 
@@ -39,7 +41,7 @@ class Parameter:
         By which a change is small or large.
     changed : callable
         From another value to the blade that has it; of a factor or a shift of all a table also from
-        one for each station.
+        one for each station. Of a condition to its motion and loads.
     moves : bool
         Whether it moves the unloaded blade, or its clamp.
     family : str
@@ -54,7 +56,7 @@ class Parameter:
     value: float
     unit: str
     size: float
-    changed: Callable[[Any], Blade] = field(repr=False)
+    changed: Callable[[Any], Any] = field(repr=False)
     moves: bool = False
     family: str = ""
     station: int = 0
@@ -74,9 +76,21 @@ class Parameter:
         """Return a change by some steps in words."""
         if self.unit == "rad":
             return f"{math.degrees(steps * self.step):+.3g} deg"
-        if self.unit == "m":
-            return f"{steps * self.step:+.3g} m"
+        if self.unit in ("m", "rad/s"):
+            return f"{steps * self.step:+.3g} {self.unit}"
         return f"{steps:+.2g} %"
+
+
+class OneByOne:
+    """Derivatives to one parameter after the other."""
+
+    def to(self, parameter: Parameter) -> FloatArray:
+        """Return the derivatives of all numbers to a parameter."""
+        raise NotImplementedError
+
+    def columns(self, several: Sequence[Parameter]) -> FloatArray:
+        """Return the derivatives of all numbers to parameters, (numbers, parameters)."""
+        return np.array([self.to(one) for one in several]).T
 
 
 def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
@@ -99,6 +113,37 @@ def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
     require_theory(theory)
     found = _of_table(blade, blade.table, theory) if blade.table else _of_section(blade)
     return {one.name: one for one in found}
+
+
+def conditions_of(
+    motion: Motion, loads: Sequence[Load] = (), unit: float = 1.0
+) -> dict[str, Parameter]:
+    """Return the numbers of a motion and of the loads by name, of a blade with a unit [rad/s].
+
+    "omega", and "start" and "ramp_time" where they are fields; each load is a factor, "loads[0]".
+    """
+    found = []
+    for one in fields(motion):  # type: ignore[arg-type]
+        if one.name in ("start", "omega", "ramp_time"):
+            value = getattr(motion, one.name)
+            size, of = (value, "s") if one.name == "ramp_time" else (value or unit, "rad/s")
+            changed = partial(_otherwise, motion, loads, one.name)
+            found.append(Parameter(one.name, value, of, size, changed, least=0.0))
+    for k in range(len(loads)):
+        found.append(_factor(f"loads[{k}]", partial(_other_load, motion, loads, k)))
+    return {one.name: one for one in found}
+
+
+def _otherwise(
+    motion: Any, loads: Sequence[Load], name: str, value: float
+) -> tuple[Motion, Sequence[Load]]:
+    return replace(motion, **{name: value}), loads
+
+
+def _other_load(
+    motion: Motion, loads: Sequence[Load], k: int, factor: float
+) -> tuple[Motion, Sequence[Load]]:
+    return motion, tuple(load.times(factor if n == k else 1.0) for n, load in enumerate(loads))
 
 
 def parameters_by(
@@ -131,7 +176,7 @@ def _of_section(blade: Blade) -> Iterator[Parameter]:
     yield from _of_line(blade)
 
 
-def _factor(name: str, changed: Callable[[float], Blade]) -> Parameter:
+def _factor(name: str, changed: Callable[[float], Any]) -> Parameter:
     return Parameter(name, 1.0, "1", 1.0, changed)
 
 

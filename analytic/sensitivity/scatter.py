@@ -1,4 +1,4 @@
-"""Frequencies of a blade whose numbers are uncertain: by derivatives, and by samples."""
+"""Answers of a blade whose numbers are uncertain: by derivatives, and by samples."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
+from ..exact.driven.response import SpinUpResponse
 from ..exact.linear.campbell import Campbell
 from ..exact.linear.families import LinearModes, modes_of
 from ..input_checks import not_negative, positive, shown, whole_number
 from ..lazily import stats
-from ..plotting import tornado
+from ..plotting import axes_or_new, tornado
 from ..threads import one_thread
 from .derivatives import Answer, Sensitivity, place_of, sensitivity
 from .frequencies import in_space, modes_until, require_modes
@@ -37,7 +38,7 @@ class Spread:
 
     Attributes
     ----------
-    answer : LinearModes, SteadyState or Orbits
+    answer : as of `Sensitivity`
     outputs, units : tuple of str
         Its numbers, as of `Sensitivity`.
     values : ndarray (outputs,)
@@ -84,6 +85,30 @@ class Spread:
         parts = self.deviations[row] * np.sqrt(self.shares[row])
         return tornado(self.parameters, parts, f"± of {self.outputs[row]} [{self.units[row]}]", ax)
 
+    def plot_over_time(self, number: str = "tip y", ax: Axes | None = None) -> Axes:
+        """Draw a number of a spin-up over time, with a band of two standard deviations.
+
+        Parameters
+        ----------
+        number : str
+            "tip y", "root moment z" and so on.
+        ax : Axes, optional
+            Drawn on these; otherwise on a new figure.
+        """
+        rows = [k for k, name in enumerate(self.outputs) if name.startswith(f"{number} at ")]
+        if not isinstance(self.answer, SpinUpResponse) or not rows:
+            raise ValueError(
+                f"there is no {shown(number)} over time: give the spread of a spin-up, and 'tip y' "
+                "or another of its numbers"
+            )
+        value, half, axes = self.values[rows], 2.0 * self.deviations[rows], axes_or_new(ax)
+        (line,) = axes.plot(self.answer.time, value)
+        axes.fill_between(
+            self.answer.time, value - half, value + half, color=line.get_color(), alpha=0.2, lw=0.0
+        )
+        axes.set(xlabel="time [s]", ylabel=f"{number} [{self.units[rows[0]]}]")
+        return axes
+
 
 def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = math.inf) -> Spread:
     """Return the scatter of an answer's numbers to the first order.
@@ -117,8 +142,8 @@ def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = mat
     if not isinstance(found, Sensitivity):
         raise TypeError(f"found must be what sensitivity returns, got {shown(found)}")
     variances = []
-    deviations = _checked(scatter, found.names)
     known = {one.name: one for one in found.parameters}
+    deviations = _checked(scatter, known)
     for name, deviation in deviations.items():
         together = _correlations(found.blade, known, name, length)
         gradient = _gradient(found, name, len(together))
@@ -136,15 +161,15 @@ def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = mat
     )
 
 
-def _checked(scatter: object, known: tuple[str, ...]) -> dict[str, float]:
+def _checked(scatter: object, known: Mapping[str, Parameter]) -> dict[str, float]:
     """Return deviations by name, or refuse them."""
     if not isinstance(scatter, Mapping) or not scatter:
         raise ValueError(
             f"scatter must be deviations by name, as {{'EI3': 0.05}}, got {shown(scatter)}"
         )
     for name in scatter:
-        if name not in known or "[" in name:
-            whole = ", ".join(one for one in known if "[" not in one)
+        if name not in known or known[name].family:
+            whole = ", ".join(name for name, one in known.items() if not one.family)
             raise ValueError(f"scatter has no parameter {shown(name)}; there are {whole}")
     return {name: not_negative(f"the scatter of {name}", value) for name, value in scatter.items()}
 
@@ -203,7 +228,7 @@ def campbell_spread(
         raise TypeError(f"diagram must be what campbell returns, got {shown(diagram)}")
     blade, theory = diagram.blade, diagram.theory
     known = parameters_of(blade, theory)
-    names = [*_checked(scatter, tuple(known))]
+    names = [*_checked(scatter, known)]
     if length != math.inf:
         names += [one.name for one in known.values() if one.family in names]
     rows = []
@@ -255,11 +280,11 @@ def sampled(
     0.031
     """
     require_modes(modes)
-    names = tuple(parameters_of(modes.blade, modes.theory))
+    given = parameters_of(modes.blade, modes.theory)
     modes = in_space(modes)
     count, seed = whole_number("count", count), whole_number("seed", seed, least=0)
     known = parameters_of(modes.blade, modes.theory)
-    deviations = _checked(scatter, names)
+    deviations = _checked(scatter, given)
     roots = [
         np.linalg.cholesky(_correlations(modes.blade, known, name, length)) for name in deviations
     ]
@@ -279,7 +304,8 @@ def sampled(
 def _changed(blade: Blade, modes: LinearModes, name: str, change: FloatArray) -> Blade:
     parameter = parameters_of(blade, modes.theory)[name]
     value = parameter.value + change
-    return parameter.changed(value if value.size > 1 else float(value[0]))
+    other: Blade = parameter.changed(value if value.size > 1 else float(value[0]))
+    return other
 
 
 def _frequencies(modes: LinearModes, blade: Blade) -> list[float]:

@@ -10,29 +10,32 @@ moves, it is of the residual: ∂y/∂p less λ·∂r/∂p, with λ of the tange
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
-from ..exact.continuum.rotation import SteadyBlade
+from ..exact.continuum.rotation import Model, SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.state import Driven
 from ..exact.linear.steady_state import SteadyState
 from ..lazily import spatial
+from ..motion import SteadyRotation
 from .energies import AROUND, SWING, Energies, States, difference
 from .frozen import frozen_blade
-from .parameters import Parameter, parameters_of
+from .parameters import OneByOne, Parameter, conditions_of, parameters_of
 
 _STEP = 1e-5  # of coordinates, which are of the size of one
 _CHANGE = 1e-4  # of a parameter over its size, where residuals are compared
 _ROUND_OFF = 1e-12  # without dimensions
 _SEEN = 1e-6  # part of a strain that the functions lack
-_CLAMP = np.zeros(1)
+_ENDS = np.array([0.0, 1.0])
 
 
-class SteadyDerivatives:
+class SteadyDerivatives(OneByOne):
     """Derivatives of the tip's place, its twist, and force and moment at the root."""
 
     outputs: tuple[str, ...] = (
@@ -57,6 +60,9 @@ class SteadyDerivatives:
             self._adjoint = self._adjoints()
         self._theory = state.theory
         self.parameters = parameters_of(self._blade, self._theory)
+        self.conditions = conditions_of(
+            SteadyRotation(omega=state.omega), self._steady.loads, self._blade.frequency_scale
+        )
 
     @cached_property
     def _sums(self) -> Energies:
@@ -94,7 +100,9 @@ class SteadyDerivatives:
 
     def to(self, parameter: Parameter) -> FloatArray:
         """Return the derivatives of all outputs to a parameter, in their units."""
-        if self.potential and not parameter.moves:
+        if parameter.name in self.conditions:
+            slopes = difference(parameter, self._otherwise, _CHANGE)
+        elif self.potential and not parameter.moves:
             slopes = -self._sums.slopes(parameter)
         else:
             slopes = difference(parameter, self._anew, _CHANGE)
@@ -102,7 +110,17 @@ class SteadyDerivatives:
 
     def _anew(self, blade: Blade) -> FloatArray:
         """Return outputs less the adjoint's virtual work, in another blade at the same strains."""
-        other = frozen_blade(self._steady, self._blade, blade)
+        return self._in(frozen_blade(self._steady, self._blade, blade))
+
+    def _otherwise(self, other: Any) -> FloatArray:
+        """Return the same at another speed, or under other loads."""
+        motion, loads = other
+        return self._in(replace(
+            self._steady, rate=motion.omega / self._blade.frequency_scale,
+            loads=tuple(loads), near=self._steady.equilibrium, given=None,
+        ))  # fmt: skip
+
+    def _in(self, other: SteadyBlade) -> FloatArray:
         q = self._steady.equilibrium[None]
         still = np.zeros_like(q)
         work: FloatArray = other.residual(q, still, still) @ self._adjoint
@@ -139,14 +157,19 @@ def _without_noise(values: FloatArray, size: float = 1.0) -> FloatArray:
 
 
 def _outputs(steady: SteadyBlade, q: FloatArray) -> FloatArray:
+    """Return place and twist of the tip, and force and moment at the root, at rest."""
+    still = np.zeros_like(q)
+    return places_and_loads(steady.model, q, still, still, steady.by())
+
+
+def places_and_loads(model: Model, *state: Any) -> FloatArray:
     """Return place and twist of the tip, and force and moment at the root, (samples, 10).
 
-    All without dimensions, and in the frame of the clamp.
+    In states q, q̇, q̈ and what drives them. All without dimensions, and in the frame of the clamp.
     """
-    model, still = steady.model, np.zeros_like(q)
-    sections = model.standing(q, _CLAMP)[1][:, 0]
+    places, sections = model.standing(state[0], _ENDS)
     loads = (
-        np.einsum("sij,sj->si", sections, one[:, 0])
-        for one in steady.section_loads(_CLAMP, q, still, still)
+        np.einsum("sij,sj->si", sections[:, 0], one[:, 0])
+        for one in model.section_loads(_ENDS[:1], *state)
     )
-    return np.hstack((model.tip(q), model.tip_turn(q)[:, None], *loads))
+    return np.hstack((places[:, 1], model.tip_turn(state[0])[:, None], *loads))

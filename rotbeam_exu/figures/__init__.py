@@ -15,6 +15,7 @@ from .results import (
     campbell,
     forced_response,
     growth_out_of_plane,
+    over_time,
     planar_stability,
     residual,
     softening_map,
@@ -28,6 +29,6 @@ __all__ = [
     "PAPER_FIGURES", "STYLE", "animate", "blade_sections", "campbell", "caption", "figure_3",
     "figure_4", "figure_5", "figure_8", "figure_9", "figure_10", "figure_11", "figure_12",
     "figure_13", "figure_14", "figure_15", "forced_response", "growth_out_of_plane", "mode_shapes",
-    "planar_stability", "residual", "root_over_turn", "save_animation", "save_figure",
+    "over_time", "planar_stability", "residual", "root_over_turn", "save_animation", "save_figure",
     "softening_map", "spin_up", "steady_tip", "strain_along", "style", "tornado",
 ]  # fmt: skip

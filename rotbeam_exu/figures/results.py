@@ -45,6 +45,12 @@ def tornado(found: Sensitivity | Spread, output: str | None = None, ax: Axes | N
         return found.plot(output, axes)
 
 
+def over_time(found: Spread, number: str = "tip y", ax: Axes | None = None) -> Axes:
+    """Draw a number of a spin-up over time with its band, as `Spread.plot_over_time` does."""
+    with house_axes(ax, column(), 2.2) as axes:
+        return found.plot_over_time(number, axes)
+
+
 def forced_response(data: xr.Dataset | Sequence[xr.Dataset], ax: Axes | None = None) -> Axes:
     """Draw response curves as `ForcedResponse.plot` does, and the backbone thin.
 

@@ -21,6 +21,7 @@ from analytic import (
     spin_up_response,
 )
 from analytic.quadrature import gauss_points
+from analytic.sensitivity import sensitivity
 from rotbeam_exu import simulate
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import unit_beam
@@ -167,3 +168,20 @@ def test_one_model(benchmark, variant, limit):
     assert model.w_n > 3.5
     if benchmark.enabled:
         assert benchmark.stats.stats.median < limit
+
+
+@pytest.mark.parametrize(
+    "blade",
+    [
+        Beam.reference(),
+        Beam.reference().with_section_out_of_plane(4.0, 0.5).with_twist(0.3),
+    ],
+)
+def test_all_derivatives_of_a_spin_up_cost_a_few_motions(blade):
+    """Two to three were measured, as docs/howto/sensitivity.md says."""
+    motion, times = SpinUp(omega=4.0, ramp_time=5.0), np.linspace(0.0, 9.0, 61)
+    begin = time.process_time()
+    response = spin_up_response(blade, motion, times, tolerance=1e-6)
+    solved = time.process_time()
+    sensitivity(response)
+    assert (time.process_time() - solved) / (solved - begin) < 4.0

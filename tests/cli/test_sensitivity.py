@@ -67,7 +67,7 @@ def test_a_steady_state_under_its_loads(call, tmp_path):
     at = {"output": list(kept["output"].values).index("root moment y")}
     assert float(kept["output_value"][at]) == pytest.approx(moments, rel=1e-3)
     code, _, error = call("sensitivity", *options[:2])
-    assert (code, "does not use [[loads]] without --steady" in error) == (0, True)
+    assert (code, "does not use [[loads]] without --steady or --spin-up" in error) == (0, True)
 
 
 def test_a_scatter_is_printed_with_its_shares(call, tmp_path):
@@ -138,3 +138,37 @@ def test_orbits_of_the_papers_beam(call):
     assert np.abs([float(cell) for cell in cells(softening, "m")[1:]]).max() < 1e-5
     code, _, error = call("sensitivity", "--steady", "--amplitude", "0.1")
     assert (code, "keep one" in error) == (2, True)
+
+
+def test_a_spin_up(call, tmp_path):
+    """What 1 % of EI does to its largest lag, and all numbers over time in the file."""
+    options = ("--omega", "6", "--ramp-time", "3", "--duration", "6", "--tolerance", "1e-4")
+    code, out, error = call(
+        "sensitivity", "--spin-up", *options, "--scatter", "EI3=0.05", "-o", tmp_path
+    )
+    assert (code, error) == (0, "")
+    assert float(cells(out.partition("Change")[0], "largest tip y [m]")[0]) == pytest.approx(
+        -5.1557, rel=1e-4
+    )
+    changes = cells(out.split("Change of the")[1], "EI3")
+    assert float(changes[2]) == pytest.approx(0.0378, abs=1e-4)
+    off, percent, share = cells(out.partition("Standard")[2], "largest tip y [m]")[1:]
+    assert float(off) == pytest.approx(5.0 * 0.0378, rel=3e-3)
+    assert (float(percent), float(share)) == (pytest.approx(3.67, abs=0.01), 100.0)
+    (kept,) = map(load, tmp_path.glob("sensitivity-spin-up-omega-6.nc"))
+    assert "tip y at 5.9999 s" not in kept["output"].values
+    assert "tip y at 6 s" in kept["output"].values
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--ramp-time", "3"], "--ramp-time and --duration are of a spin-up: give --spin-up"),
+        (["--spin-up", "--steady"], "--steady and --spin-up are of different answers: keep one"),
+        (["--spin-up", "--scatter", "omega[0]=1"], "scatter has no parameter 'omega[0]'; there"),
+        (["--spin-up", "--duration", "-1"], "duration must be positive"),
+    ],
+)
+def test_options_that_are_of_another_answer(call, options, sentence):
+    code, _, error = call("sensitivity", *options, "--tolerance", "1e-3")
+    assert (code, sentence in error) == (2, True), error

@@ -231,11 +231,15 @@ class StrainFunctions:
     @cached_property
     def damping(self) -> FloatArray:
         """The viscous resistance to q̇ (n, n) of moments about the center of tension and forces."""
+        grid = self._energy_grid
+        soft = self.flexibility(grid.points)
+        return self.viscous(grid, soft, self.forces(grid.points))
+
+    def viscous(self, grid: Grid, soft: FloatArray, forces: FloatArray) -> FloatArray:
+        """Return the same by forces of functions at a grid, with strains over forces `soft`."""
         rates = np.sqrt(self.blade.damping.of_strains)
         if not rates.any():
-            return np.zeros_like(self.stiffness)
-        grid = self._energy_grid
-        soft, forces = self.flexibility(grid.points), self.forces(grid.points)
+            return np.zeros((self.size, self.size))
         # Strains under forces where the section does not bend: what is left are the moments'.
         beside, bends = soft[:, :3, 3:], np.linalg.pinv(soft[:, 3:, 3:], hermitian=True)
         along = soft[:, :3, :3] - beside @ bends @ np.swapaxes(beside, 1, 2)

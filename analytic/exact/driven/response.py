@@ -25,7 +25,7 @@ from ...warning import warn
 from ..continuum.rotation import SteadyBlade, continuum_of, finer_blades, rotating_blade
 from ..continuum.state import BladeState, Driven, SectionLoads, in_newtons, state_of
 from .start import Start, checked_start, started
-from .transient import BladeMotion, drive, grid_of, integrated
+from .transient import BladeMotion, Steps, drive, grid_of, integrated
 
 _TOLERANCE = 1e-8
 _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
@@ -52,7 +52,7 @@ class SpinUpResponse:
 
     Attributes
     ----------
-    beam, spin_up, loads, start, theory : as given
+    blade, spin_up, loads, start, kick, bent, theory : as given
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)
@@ -81,6 +81,8 @@ class SpinUpResponse:
     spin_up: SpeedChange | SteadyRotation
     loads: tuple[Load, ...]
     start: Start
+    kick: float
+    bent: float
     theory: Theory
     time: FloatArray
     q: FloatArray = field(repr=False)
@@ -92,14 +94,15 @@ class SpinUpResponse:
     error: float
     steps: int
     functions: int
-    _model: Any = field(repr=False)
+    model: Any = field(repr=False)
     _state: FloatArray = field(repr=False)
+    steps_taken: Steps = field(repr=False)
 
     def section_loads(self, x: ArrayLike) -> SectionLoads:
         """Return the sections at `x` [m], and force and moment in them, over time."""
         at = points_of_beam("x", x, self.blade.length)
-        driven_at = drive(self.blade, rippled(self.spin_up, self.loads), self.loads, self._model)
-        model = self._model
+        driven_at = drive(self.blade, rippled(self.spin_up, self.loads), self.loads, self.model)
+        model = self.model
         parts = [
             model.standing(self._state[0, few], at)
             + model.section_loads(at, *self._state[:, few], driven_at(self.time[few]))
@@ -112,7 +115,7 @@ class SpinUpResponse:
     def state(self, i: int, x: ArrayLike) -> BladeState:
         """Return the state at time `i` at the material points `x` [m], to start a motion from."""
         q, q_dot, _ = self._state[:, i]
-        return state_of(self.blade, self._model, q, q_dot, x)
+        return state_of(self.blade, self.model, q, q_dot, x)
 
     @property
     def lag(self) -> FloatArray:
@@ -256,6 +259,8 @@ def spin_up_response(
         spin_up=spin_up,
         loads=loads,
         start=start,
+        kick=kick,
+        bent=bent,
         theory=theory,
         time=time,
         points=blade.length * along,
@@ -265,10 +270,11 @@ def spin_up_response(
         axis=blade.length * finer.axis,
         twist=finer.twist,
         error=error,
-        steps=finer.ends.size,
+        steps=finer.steps.lengths.size,
         functions=model.bending,
-        _model=model,
+        model=model,
         _state=finer.state,
+        steps_taken=finer.steps,
     )
 
 
@@ -316,12 +322,13 @@ def _resolving(
 
     Forces of modes alone, taken again and again, are slow to make functions for a motion.
     """
-    if motion is None or not motion.ends.size:
+    if motion is None or not motion.steps.lengths.size:
         return steady.refined()
     model: Any = steady.model
-    few = np.unique(np.linspace(0, motion.ends.size - 1, _INSTANTS).astype(int))
-    q, *rates = motion.passed[:, few]
-    caused = model.forces_caused(q, *rates, drive_of(model)(motion.ends[few]))
+    ends = motion.steps.ends[1:]
+    few = ends[np.unique(np.linspace(0, ends.size - 1, _INSTANTS).astype(int))]
+    q, *rates = motion.steps.at(few)
+    caused = model.forces_caused(q, *rates, drive_of(model)(few))
     energy = np.sum(q * (q @ model.functions.stiffness), axis=1).max()
     return steady.onto(caused / math.sqrt(energy or 1.0), _LEFT * tolerance)
 

@@ -42,11 +42,51 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
     return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
 
 
+class Steps(NamedTuple):
+    """The steps of a motion: their ends from the start on [s], and polynomials of accelerations.
+
+    Coordinates and rates (2, ends, n) without units are those at the ends, and `accelerations`
+    (steps, stages, n) at the nodes of Radau's method.
+    """
+
+    ends: FloatArray
+    passed: FloatArray
+    accelerations: FloatArray
+    per_second: float
+
+    @property
+    def method(self) -> Collocation:
+        """The collocation of the steps."""
+        return radau(self.accelerations.shape[1])
+
+    @property
+    def lengths(self) -> FloatArray:
+        """Lengths without units, (steps,)."""
+        return np.asarray(self.per_second * np.diff(self.ends))
+
+    def at(self, time: FloatArray) -> FloatArray:
+        """Return coordinates, rates and accelerations at times [s], (3, times, n)."""
+        method, lengths = self.method, self.lengths
+        q, q_dot = self.passed[:, 0]
+        state = np.repeat(np.stack((q, q_dot, 0.0 * q))[:, None], time.size, axis=1)
+        of = np.searchsorted(self.ends[1:], time)  # the first step has its start as well
+        for k in np.unique(of[of < lengths.size]):
+            h, inside, acceleration = lengths[k], of == k, self.accelerations[k]
+            at = (time[inside] - self.ends[k]) / (self.ends[k + 1] - self.ends[k])
+            onto, (q, q_dot) = h * method.integral(at), self.passed[:, k]
+            state[:, inside] = (
+                q + h * (at[:, None] * q_dot + onto @ method.velocity @ acceleration),
+                q_dot + onto @ acceleration,
+                method.values(at) @ acceleration,
+            )
+        return state
+
+
 class BladeMotion(NamedTuple):
     """Deflection and rate, twist, places of the tip (times, 3) and points (times, points, 3).
 
     Without units, in the frame of the clamp. `state` has coordinates, rates and accelerations,
-    (3, times, n), and `passed` those at the `ends` of the steps [s].
+    (3, times, n).
     """
 
     q: FloatArray
@@ -55,8 +95,7 @@ class BladeMotion(NamedTuple):
     tip: FloatArray
     axis: FloatArray
     state: FloatArray
-    ends: FloatArray
-    passed: FloatArray
+    steps: Steps
 
 
 def drive(
@@ -98,9 +137,8 @@ def integrated(
     method, per_second = radau(_STAGES), blade.frequency_scale
     driven_at = drive(blade, rotation, loads, model)
     q_dot, acceleration = rates + np.zeros(model.size), np.zeros((_STAGES, model.size))
-    state = np.repeat(np.stack((q, q_dot, 0.0 * q))[:, None], time.size, axis=1)
     solver, previous = _Solver(model, method), 0.0
-    passed: dict[float, FloatArray] = {}
+    ends, passed, accelerations = [float(grid[0])], [(q, q_dot)], list[FloatArray]()
     control = None
     if tolerance is not None:
         forces = driven_at(np.linspace(grid[0], grid[-1], _INSTANTS))
@@ -133,19 +171,15 @@ def integrated(
             ahead.append((begin, end))
             continue
         acceleration, previous = found.z, h
-        passed[end] = np.stack([part[-1] for part in at_nodes])
-        before = -np.inf if begin == grid[0] else begin  # the first step has its start as well
-        inside = slice(*np.searchsorted(time, (before, end), side="right"))
-        at = (time[inside] - begin) / (end - begin)
-        if at.size:
-            onto = h * method.integral(at)
-            state[:, inside] = (
-                q + h * (at[:, None] * q_dot + onto @ method.velocity @ acceleration),
-                q_dot + onto @ acceleration,
-                method.values(at) @ acceleration,
-            )
         q, q_dot = positions[-1], velocities[-1]
-    at = np.append(points, 1.0)
+        ends.append(end)
+        passed.append((q, q_dot))
+        accelerations.append(acceleration)
+    steps = Steps(
+        np.array(ends), np.swapaxes(passed, 0, 1),
+        np.reshape(accelerations, (-1, _STAGES, q.size)), per_second,
+    )  # fmt: skip
+    state, at = steps.at(time), np.append(points, 1.0)
     parts = [
         (
             model.tip(q)[:, 1],
@@ -157,8 +191,7 @@ def integrated(
     ]
     deflection, rate, twist, places = map(np.concatenate, zip(*parts, strict=True))
     return BladeMotion(
-        deflection, rate, twist, places[:, -1], places[:, :-1], state,
-        np.array(list(passed)), np.reshape(list(passed.values()), (-1, 3, q.size)).swapaxes(0, 1),
+        deflection, rate, twist, places[:, -1], places[:, :-1], state, steps
     )  # fmt: skip
 
 

@@ -104,8 +104,37 @@ def test_peaks_against_responses_that_are_solved_anew(respond, count):
         np.testing.assert_allclose(size * slopes, size * expected, rtol=3e-6, atol=5e-6)
 
 
-def test_a_response_in_space_has_none():
-    damped = STRIP.with_damping(Damping(bending=0.05, torsion=0.05, out_of_plane=0.05))
-    response = forced_response(damped, 2.0, TipForce(amplitude=0.01), [1.0, 1.5])
-    with pytest.raises(ValueError, match="a forced response in space has no derivatives yet"):
-        sensitivity(response)
+STIRRED = STRIP.with_damping(Damping(bending=0.05, torsion=0.05, out_of_plane=0.05, external=0.1))
+
+
+def test_peaks_in_space_against_responses_that_are_solved_anew():
+    """Their damping is that of the other blade: of strains it goes with the stiffness."""
+
+    def peaks(blade, omega=2.0, size=0.05):
+        load = TipForce(amplitude=size)
+        return forced_response(blade, omega, load, [2.0, 2.1], harmonics=4)
+
+    found = sensitivity(peaks(STIRRED), ["EI3", "m", "omega", "loads[0]"])
+    for parameter, slopes in zip(found.parameters, found.derivatives.T, strict=True):
+        change = 1e-3 * parameter.size
+        several = []
+        for value in (parameter.value + change, parameter.value - change):
+            given = {"omega": (STIRRED, value), "loads[0]": (STIRRED, 2.0, 0.05 * value)}
+            anew = given.get(parameter.name) or (parameter.changed(value),)
+            several.append(sensitivity(peaks(*anew), []).values)
+        expected = (several[0] - several[1]) / (2.0 * change)
+        assert np.abs(expected).max() > 0.0
+        size = parameter.size
+        np.testing.assert_allclose(size * slopes, size * expected, rtol=1e-5, atol=5e-6)
+
+
+def test_speed_and_load():
+    """Of orbits the speed; of responses to gravity, whose speed is given, its size."""
+    orbits = periodic_orbits(Beam.reference(), 6.0, [0.3])
+    ahead, behind = (periodic_orbits(Beam.reference(), w, [0.3]) for w in (6.01, 5.99))
+    found = sensitivity(orbits, ["omega"])
+    slope = (ahead.frequency - behind.frequency) / 0.02
+    np.testing.assert_allclose(found.derivatives[0], slope, rtol=1e-5)
+    weight = sensitivity(weighed(Beam.reference().with_damping(Damping(external=0.1))))
+    assert weight.names[-1] == "loads[0]"
+    assert "omega" not in weight.names
