@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -52,6 +52,18 @@ def difference(
     steps, weights = schemes[parameter.value - 2.0 * change < parameter.least]
     several = [values(parameter.changed(parameter.value + change * step)) for step in steps]
     return np.asarray(np.tensordot(weights, several, 1) / change)
+
+
+class OneByOne:
+    """Derivatives to one parameter after the other."""
+
+    def to(self, parameter: Parameter) -> FloatArray:
+        """Return the derivatives of all numbers to a parameter."""
+        raise NotImplementedError
+
+    def columns(self, several: Sequence[Parameter]) -> FloatArray:
+        """Return the derivatives of all numbers to parameters, (numbers, parameters)."""
+        return np.array([self.to(one) for one in several]).T
 
 
 class Energies:

@@ -16,8 +16,9 @@ from ..exact.linear.modes import linear_modes
 from ..input_checks import shown
 from ..motion import SteadyRotation
 from ..theory import Theory
-from .energies import AROUND, SWING, Energies, States, difference
-from .parameters import OneByOne, Parameter, conditions_of
+from .conditions import conditions_of
+from .energies import AROUND, SWING, Energies, OneByOne, States, difference
+from .parameters import Parameter
 
 MOST = 24
 """Modes among which one is sought by its name."""

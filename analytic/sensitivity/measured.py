@@ -11,9 +11,18 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.unit import space_unit
+from ..exact.driven.response import spin_up_response
 from ..exact.linear.steady_state import steady_state
-from ..input_checks import finite_number, positive, rotation_speed, shown, whole_number
-from ..loads import Load, loads_at_once
+from ..input_checks import (
+    finite_number,
+    not_negative,
+    positive,
+    rotation_speed,
+    shown,
+    whole_number,
+)
+from ..loads import Load, loads_at_once, loads_in_time
+from ..motion import SpeedChange, SteadyRotation, require_ramp
 from ..theory import Theory
 from .derivatives import sensitivity
 from .energies import difference
@@ -25,6 +34,7 @@ OUTPUTS = {
     **dict(zip(SteadyDerivatives.outputs, SteadyDerivatives.units, strict=True)),
 }
 """Numbers of a steady state that are measured, with their units."""
+_TOLERANCE = 1e-5  # of a motion, far below what is measured
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,6 +198,86 @@ class MeasuredState(Measured):
                     difference(p, _unloaded)[rows[k]] if p.moves else 0.0 for p in found.parameters
                 ]
         return values, slopes
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredMotion(Measured):
+    """A number of a spin-up at a time: the tip's place or twist, or a load at the root.
+
+    Its deviation is needed, for a motion goes through zero.
+
+    Parameters
+    ----------
+    output : str
+        "tip y", "root moment z" and so on, as of `Sensitivity`.
+    time : float
+        When it was measured [s].
+    spin_up : SpinUp, FourierRamp, SpeedTable or SteadyRotation
+    loads, start
+        As of `spin_up_response`.
+
+    Examples
+    --------
+    >>> from analytic import SpinUp
+    >>> from analytic.sensitivity import MeasuredMotion
+    >>> motion = SpinUp(omega=6.0, ramp_time=3.0)
+    >>> seen = MeasuredMotion(output="tip y", time=1.5, value=-5.1, deviation=0.1, spin_up=motion)
+    >>> print(seen.label)
+    tip y at 1.5 s
+    """
+
+    output: str
+    time: float
+    spin_up: SpeedChange | SteadyRotation
+    loads: Sequence[Load] = ()
+    start: str = "straight"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.deviation is None:
+            raise ValueError("a motion goes through zero: give the deviation of what was measured")
+        if not isinstance(self.spin_up, SteadyRotation):
+            require_ramp(self.spin_up)
+        for name, value in {
+            "omega": self.spin_up.omega,
+            "time": not_negative("time", self.time, "s"),
+            "loads": loads_in_time(self.loads),
+        }.items():
+            object.__setattr__(self, name, value)
+        if self.output not in SteadyDerivatives.outputs:
+            raise ValueError(
+                f"output must be one of {', '.join(SteadyDerivatives.outputs)}, got "
+                f"{shown(self.output)}"
+            )
+
+    @property
+    def label(self) -> str:
+        """The number and the time."""
+        return f"{self.output} at {self.time:.12g} s"
+
+    @property
+    def unit(self) -> str:
+        """Unit of the number."""
+        return OUTPUTS[self.output]
+
+    @property
+    def together(self) -> tuple[Any, ...]:
+        """The same for numbers of one motion."""
+        return type(self), self.spin_up, self.loads, self.start
+
+    @staticmethod
+    def computed(
+        several: Sequence[Any], blade: Blade, theory: Theory, names: Sequence[str]
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the numbers and their derivatives."""
+        first, times = several[0], np.unique([one.time for one in several])
+        response = spin_up_response(
+            blade, first.spin_up, times, loads=first.loads, start=first.start, theory=theory,
+            tolerance=_TOLERANCE,
+        )  # fmt: skip
+        found = sensitivity(response, names)
+        rows = [found.outputs.index(one.label) for one in several]
+        return found.values[rows], found.derivatives[rows]
 
 
 def _unloaded(blade: Blade) -> FloatArray:

@@ -15,8 +15,9 @@ from ..blade import Blade
 from ..motion import SteadyRotation
 from ..reduced.model import ReducedModel
 from ..reduced.model_range import model_at
-from .energies import FINE, difference
-from .parameters import OneByOne, Parameter, conditions_of, parameters_of
+from .conditions import conditions_of
+from .energies import FINE, OneByOne, difference
+from .parameters import Parameter, parameters_of
 
 _CHANGE = 1e-3  # of a parameter over its size, of which the fourth power is left
 _UNIFORM = "EA", "EI3", "m"  # with any of which a beam is still the paper's kind

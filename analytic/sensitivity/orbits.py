@@ -23,10 +23,11 @@ from ..exact.free.orbits import Orbits
 from ..methods.fourier import waves
 from ..methods.harmonic_balance import jacobian, projected
 from ..motion import SteadyRotation
-from .energies import difference
+from .conditions import conditions_of
+from .energies import OneByOne, difference
 from .frequencies import FrequencyDerivatives, in_space, modes_until
 from .frozen import model_of
-from .parameters import OneByOne, Parameter, conditions_of, parameters_of
+from .parameters import Parameter, parameters_of
 
 _CHANGE = 1e-4  # of a parameter over its size
 

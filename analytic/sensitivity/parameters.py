@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -14,8 +14,6 @@ from ..arrays import FloatArray, in_units
 from ..blade import Blade
 from ..blade_checks import require_blade
 from ..input_checks import shown
-from ..load import Load
-from ..motion import Motion
 from ..station_section import MASSES, STIFFNESSES, StationSection, about_centers, hat, nested
 from ..theory import Theory, require_theory
 
@@ -81,18 +79,6 @@ class Parameter:
         return f"{steps:+.2g} %"
 
 
-class OneByOne:
-    """Derivatives to one parameter after the other."""
-
-    def to(self, parameter: Parameter) -> FloatArray:
-        """Return the derivatives of all numbers to a parameter."""
-        raise NotImplementedError
-
-    def columns(self, several: Sequence[Parameter]) -> FloatArray:
-        """Return the derivatives of all numbers to parameters, (numbers, parameters)."""
-        return np.array([self.to(one) for one in several]).T
-
-
 def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
     """Return the parameters of a blade by name, those of its stations last.
 
@@ -113,37 +99,6 @@ def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
     require_theory(theory)
     found = _of_table(blade, blade.table, theory) if blade.table else _of_section(blade)
     return {one.name: one for one in found}
-
-
-def conditions_of(
-    motion: Motion, loads: Sequence[Load] = (), unit: float = 1.0
-) -> dict[str, Parameter]:
-    """Return the numbers of a motion and of the loads by name, of a blade with a unit [rad/s].
-
-    "omega", and "start" and "ramp_time" where they are fields; each load is a factor, "loads[0]".
-    """
-    found = []
-    for one in fields(motion):  # type: ignore[arg-type]
-        if one.name in ("start", "omega", "ramp_time"):
-            value = getattr(motion, one.name)
-            size, of = (value, "s") if one.name == "ramp_time" else (value or unit, "rad/s")
-            changed = partial(_otherwise, motion, loads, one.name)
-            found.append(Parameter(one.name, value, of, size, changed, least=0.0))
-    for k in range(len(loads)):
-        found.append(_factor(f"loads[{k}]", partial(_other_load, motion, loads, k)))
-    return {one.name: one for one in found}
-
-
-def _otherwise(
-    motion: Any, loads: Sequence[Load], name: str, value: float
-) -> tuple[Motion, Sequence[Load]]:
-    return replace(motion, **{name: value}), loads
-
-
-def _other_load(
-    motion: Motion, loads: Sequence[Load], k: int, factor: float
-) -> tuple[Motion, Sequence[Load]]:
-    return motion, tuple(load.times(factor if n == k else 1.0) for n, load in enumerate(loads))
 
 
 def parameters_by(
@@ -168,15 +123,16 @@ def _of_section(blade: Blade) -> Iterator[Parameter]:
     if section.rotary_inertia is not None:
         profiles["j"] = "rotary_inertia"
     for name, key in profiles.items():
-        yield _factor(name, partial(_scaled, blade, key))
+        yield factor_of(name, partial(_scaled, blade, key))
     if out is not None:
         for name, key in (("EI2", "bending_ratio"), ("GJ", "torsion_ratio")):
             if np.isfinite(getattr(out, key) or np.inf):
-                yield _factor(name, partial(_other_ratio, blade, key))
+                yield factor_of(name, partial(_other_ratio, blade, key))
     yield from _of_line(blade)
 
 
-def _factor(name: str, changed: Callable[[float], Any]) -> Parameter:
+def factor_of(name: str, changed: Callable[[float], Any]) -> Parameter:
+    """Return the parameter that multiplies what there is."""
     return Parameter(name, 1.0, "1", 1.0, changed)
 
 
@@ -227,7 +183,7 @@ def _of_table(blade: Blade, table: StationSection, theory: Theory) -> Iterator[P
         diagonals = np.einsum("sii->si", (S, M)[which])
         values = diagonals[:, _places(which, name)[0]].tolist()
         if all(values):
-            yield _factor(name, partial(_entry, blade, which, name, slice(None)))
+            yield factor_of(name, partial(_entry, blade, which, name, slice(None)))
             stations += [
                 Parameter(
                     f"{name}[{k}]", value, _UNITS[name], value,

@@ -1,4 +1,4 @@
-"""Answers of a blade whose numbers are uncertain: by derivatives, and by samples."""
+"""Answers of a blade whose numbers are uncertain: by derivatives."""
 
 from __future__ import annotations
 
@@ -14,22 +14,18 @@ from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.driven.response import SpinUpResponse
 from ..exact.linear.campbell import Campbell
-from ..exact.linear.families import LinearModes, modes_of
-from ..input_checks import not_negative, positive, shown, whole_number
-from ..lazily import stats
+from ..exact.linear.families import LinearModes
+from ..input_checks import not_negative, positive, shown
 from ..plotting import axes_or_new, tornado
 from ..threads import one_thread
 from .derivatives import Answer, Sensitivity, place_of, sensitivity
-from .frequencies import in_space, modes_until, require_modes
-from .frozen import frozen_blade
+from .frequencies import modes_until
 from .parameters import Parameter, parameters_of
 
 if TYPE_CHECKING:
     from ..plotting import Axes
 
 _SAME = 1e-5  # between frequencies of a diagram and modes at its speeds
-_FAR = 3.0
-"""Deviations at most: farther, a stiffness may lose its sign."""
 
 
 @dataclass(frozen=True)
@@ -143,9 +139,9 @@ def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = mat
         raise TypeError(f"found must be what sensitivity returns, got {shown(found)}")
     variances = []
     known = {one.name: one for one in found.parameters}
-    deviations = _checked(scatter, known)
+    deviations = checked_scatter(scatter, known)
     for name, deviation in deviations.items():
-        together = _correlations(found.blade, known, name, length)
+        together = correlations(found.blade, known, name, length)
         gradient = _gradient(found, name, len(together))
         variances.append(deviation**2 * np.einsum("mi,ij,mj->m", gradient, together, gradient))
     each = np.array(variances)
@@ -161,7 +157,7 @@ def spread(found: Sensitivity, scatter: Mapping[str, float], length: float = mat
     )
 
 
-def _checked(scatter: object, known: Mapping[str, Parameter]) -> dict[str, float]:
+def checked_scatter(scatter: object, known: Mapping[str, Parameter]) -> dict[str, float]:
     """Return deviations by name, or refuse them."""
     if not isinstance(scatter, Mapping) or not scatter:
         raise ValueError(
@@ -185,7 +181,7 @@ def _gradient(found: Sensitivity, name: str, count: int) -> FloatArray:
     return found.derivatives[:, places] * size
 
 
-def _correlations(
+def correlations(
     blade: Blade, known: Mapping[str, Parameter], name: str, length: float
 ) -> FloatArray:
     """Return exp(-|Δx|/length) between stations, (stations, stations), or one of a whole blade."""
@@ -228,7 +224,7 @@ def campbell_spread(
         raise TypeError(f"diagram must be what campbell returns, got {shown(diagram)}")
     blade, theory = diagram.blade, diagram.theory
     known = parameters_of(blade, theory)
-    names = [*_checked(scatter, known)]
+    names = [*checked_scatter(scatter, known)]
     if length != math.inf:
         names += [one.name for one in known.values() if one.family in names]
     rows = []
@@ -243,74 +239,3 @@ def campbell_spread(
 
 def _reached(frequency: float, modes: LinearModes) -> bool:
     return bool(modes.frequencies[-1] > frequency)
-
-
-@one_thread
-def sampled(
-    modes: LinearModes,
-    scatter: Mapping[str, float],
-    length: float = math.inf,
-    *,
-    count: int = 200,
-    seed: int = 0,
-) -> FloatArray:
-    """Return frequencies of sampled blades [rad/s], (count, modes), by name.
-
-    Normal deviations, clipped at three, on a Latin hypercube. The strains of the modes' functions
-    are kept, so that a sample costs a steady state and an eigenvalue problem: sections that turn
-    by 0.05 rad then leave some 1e-5 of a frequency, by 0.2 rad 5e-4. A mode whose name a sample
-    does not have is NaN.
-
-    Parameters
-    ----------
-    modes : LinearModes
-        Of a blade whose section out of the plane is known, or of a planar one.
-    scatter, length
-        As for `spread`.
-    count, seed : int
-        Number of samples, and of the generator.
-
-    Examples
-    --------
-    >>> from analytic import Beam, linear_modes
-    >>> from analytic.sensitivity import sampled
-    >>> modes = linear_modes(Beam.reference(), omega=0.0, count=1)
-    >>> found = sampled(modes, {"EI3": 0.06, "m": 0.02}, count=50)
-    >>> print((found.std() / found.mean()).round(3))
-    0.031
-    """
-    require_modes(modes)
-    given = parameters_of(modes.blade, modes.theory)
-    modes = in_space(modes)
-    count, seed = whole_number("count", count), whole_number("seed", seed, least=0)
-    known = parameters_of(modes.blade, modes.theory)
-    deviations = _checked(scatter, given)
-    roots = [
-        np.linalg.cholesky(_correlations(modes.blade, known, name, length)) for name in deviations
-    ]
-    dims = sum(len(root) for root in roots)
-    points = stats.norm.ppf(stats.qmc.LatinHypercube(dims, rng=seed).random(count))
-    result = np.full((count, len(modes.names)), np.nan)
-    for row, point in zip(result, np.clip(points, -_FAR, _FAR), strict=True):
-        blade, begin = modes.blade, 0
-        for (name, deviation), root in zip(deviations.items(), roots, strict=True):
-            change = deviation * (root @ point[begin : begin + len(root)])
-            begin += len(root)
-            blade = _changed(blade, modes, name, change)
-        row[:] = _frequencies(modes, blade)
-    return result
-
-
-def _changed(blade: Blade, modes: LinearModes, name: str, change: FloatArray) -> Blade:
-    parameter = parameters_of(blade, modes.theory)[name]
-    value = parameter.value + change
-    other: Blade = parameter.changed(value if value.size > 1 else float(value[0]))
-    return other
-
-
-def _frequencies(modes: LinearModes, blade: Blade) -> list[float]:
-    """Return the frequencies of the same modes of another blade [rad/s]."""
-    other = frozen_blade(modes.steady, modes.blade, blade)
-    found = modes_of(modes.blade, modes.omega, modes.theory, other)
-    by_name = dict(zip(found.names, found.frequencies.tolist(), strict=True))
-    return [by_name.get(name, math.nan) for name in modes.names]

@@ -19,9 +19,10 @@ from ..exact.driven.start import started
 from ..exact.driven.transient import Steps, drive
 from ..lazily import linalg, optimize
 from ..loads import Load, rippled
+from .conditions import conditions_of
 from .energies import difference
 from .frozen import model_of
-from .parameters import Parameter, conditions_of, parameters_of
+from .parameters import Parameter, parameters_of
 from .steady import SteadyDerivatives, places_and_loads
 
 _CHANGE = 1e-4  # of a parameter over its size

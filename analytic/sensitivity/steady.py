@@ -24,9 +24,10 @@ from ..exact.continuum.state import Driven
 from ..exact.linear.steady_state import SteadyState
 from ..lazily import spatial
 from ..motion import SteadyRotation
-from .energies import AROUND, SWING, Energies, States, difference
+from .conditions import conditions_of
+from .energies import AROUND, SWING, Energies, OneByOne, States, difference
 from .frozen import frozen_blade
-from .parameters import OneByOne, Parameter, conditions_of, parameters_of
+from .parameters import Parameter, parameters_of
 
 _STEP = 1e-5  # of coordinates, which are of the size of one
 _CHANGE = 1e-4  # of a parameter over its size, where residuals are compared

@@ -40,7 +40,8 @@ GROUPS = (
         analytic="linear_modes campbell damping_ratios steady_state state_space",
         analytic__exact__linear__damping="modal_damping",
         analytic__sensitivity="sensitivity Sensitivity parameters_of Parameter spread Spread "
-        "campbell_spread sampled fit Fit Measured MeasuredFrequency MeasuredState",
+        "campbell_spread sampled fit Fit Measured MeasuredFrequency MeasuredState "
+        "MeasuredMotion",
         analytic__exact__linear__modes="LinearModes",
         analytic__exact__linear__campbell="Campbell Crossing",
     ),

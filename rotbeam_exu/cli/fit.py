@@ -1,4 +1,4 @@
-"""`rotbeam fit`: the blade that fits measured frequencies and pulls."""
+"""`rotbeam fit`: the blade that fits measured frequencies, pulls and histories."""
 
 from __future__ import annotations
 
@@ -36,8 +36,9 @@ def fit(
     ----------
     measured
         CSV files, each of one kind: natural frequencies, with the columns mode, omega [rpm],
-        frequency [Hz] and deviation [%]; or a number of the steady state, as deflection_z [mm],
-        under a force fz [N] at x [m].
+        frequency [Hz] and deviation [%]; a number of the steady state, as deflection_z [mm], under
+        a force fz [N] at x [m]; or one of a spin-up, as tip_y [mm], with time [s], omega [rpm],
+        ramp_time [s] and deviation [%] of the largest.
     free
         Numbers to fit, as EI2 EI3 m of the whole blade, or EI2[4] at station 4, counted from 0.
     prior

@@ -61,7 +61,7 @@ def sensitivity(
         Of the steady state under the loads instead: its tip, and force and moment on the clamp.
     spin_up
         Of the spin-up, from the steady state under the loads, instead: the largest values of its
-        tip and root loads, and the swing that it leaves. Files have them over time, too.
+        tip and root loads, and the swing after the ramp. Files have them over time, too.
     amplitude
         Of free orbits of lag 1 with these peaks over the length instead.
     rows

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from analytic import PointLoad
-from analytic.sensitivity import MeasuredFrequency, MeasuredState
+from analytic import PointLoad, SpinUp
+from analytic.sensitivity import MeasuredFrequency, MeasuredMotion, MeasuredState
 from rotbeam_exu.files.measured_file import measured_of
 
 
@@ -35,9 +35,34 @@ def test_pulls(tmp_path):
     assert (moment.output, moment.value, moment.omega) == ("root moment y", -3000.0, 2.0)
 
 
+def test_a_motion(tmp_path):
+    """The deviation is a part of the largest value, for a motion goes through zero."""
+    first, second = read(
+        tmp_path,
+        "time [ms],tip_y [mm],omega [rpm],ramp_time [s],deviation [%]\n"
+        "0,0,60,3,1\n500,-40,60,3,1\n",
+    )
+    motion = SpinUp(omega=math.tau, ramp_time=3.0)
+    assert second == MeasuredMotion(
+        output="tip y", time=0.5, value=-0.04, spin_up=motion, deviation=4e-4
+    )
+    assert (first.value, first.deviation) == (0.0, 4e-4)
+
+
+MOVING = "time [s],omega [rpm],ramp_time [s],deviation [%],"
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
+        ("time [s],tip_y [m]\n1,2\n", "lacks omega, ramp_time, deviation, which a spin-up needs"),
+        (MOVING + "deflection_y [m]\n1,3,3,1,2\n", "output must be one of tip x"),
+        (MOVING + "tip_y [m],fz [N]\n1,3,3,1,2,1\n", "has fz, which tip_y does not use"),
+        (MOVING + "mode,frequency [Hz]\n1,3,3,1,lag 1,2\n", "which frequency does not use"),
+        (MOVING + "tip_y [m]\n-1,3,3,1,2\n", "time must not be negative"),
+        (MOVING + "tip_y [m]\n1,3,0,1,2\n", "ramp_time must be positive"),
+        (MOVING + "tip_y [m]\n1,3,3,1,0\n", "deviation must be positive"),
+        (MOVING + "tip_y [m]\n1,3,3,nan,1\n", "'nan' in column deviation, which is no number"),
         ("mode,omega [rpm]\nlag 1,3\n", "has 0 columns of what was measured: give one of frequen"),
         ("mode,frequency [Hz],tip_z [m]\nlag 1,3,1\n", "has 2 columns of what was measured"),
         ("frequency [Hz]\n3\n", "lacks the column mode, as lag 1 or its number"),

@@ -3,8 +3,24 @@
 import numpy as np
 import pytest
 
-from analytic import Beam, PointLoad, Theory, linear_modes, steady_state
-from analytic.sensitivity import MeasuredFrequency, MeasuredState, fit, parameters_of, sensitivity
+from analytic import (
+    Beam,
+    PointLoad,
+    SpinUp,
+    Theory,
+    TipForce,
+    linear_modes,
+    spin_up_response,
+    steady_state,
+)
+from analytic.sensitivity import (
+    MeasuredFrequency,
+    MeasuredMotion,
+    MeasuredState,
+    fit,
+    parameters_of,
+    sensitivity,
+)
 from tests.beams import irregular, unit_beam
 
 STRIP = unit_beam(1e-3).with_section_out_of_plane(0.25, 0.2).with_twist(0.4)
@@ -45,6 +61,52 @@ def test_exact_data_give_the_blade_that_made_them():
     assert not found.unknown
     again = linear_modes(found.blade, 0.0, 4).frequencies
     np.testing.assert_allclose(again, linear_modes(blade, 0.0, 4).frequencies, rtol=1e-6)
+
+
+def test_a_history_with_noise():
+    """Of the lag after a spin-up and the root's moment; scatter and deviations are the noise's."""
+    rng, beam = np.random.default_rng(4), Beam.reference()
+    truth = with_values(beam, EI3=1.08, hub_radius=0.25)
+    motion, times = SpinUp(omega=6.0, ramp_time=3.0), np.linspace(0.5, 5.0, 31)
+    made = sensitivity(spin_up_response(truth, motion, times, tolerance=1e-6), [])
+    data = [
+        MeasuredMotion(
+            output=name, time=time, spin_up=motion, deviation=noise,
+            value=made.values[made.outputs.index(f"{name} at {time:.12g} s")] + noise * error,
+        )
+        for name, noise in (("tip y", 0.02), ("root moment z", 2.0))
+        for time, error in zip(times.tolist(), rng.standard_normal(times.size), strict=True)
+    ]  # fmt: skip
+    found = fit(beam, data, ["EI3", "hub_radius"])
+    assert found.labels[0] == "tip y at 0.5 s"
+    assert not found.unknown
+    assert 0.8 < found.misfit < 1.2
+    off = np.abs(found.values - [1.08, 0.25])
+    assert (off < 3.0 * found.deviations).all()
+    assert (found.deviations < [2e-3, 0.01]).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "sentence"),
+    [
+        ({"deviation": None}, ValueError, "a motion goes through zero: give the deviation"),
+        ({"output": "deflection y"}, ValueError, "output must be one of tip x"),
+        ({"time": -1.0}, ValueError, "time must not be negative"),
+        ({"time": True}, TypeError, "time must be a"),
+        ({"value": np.ma.masked}, (TypeError, ValueError), "value"),
+        ({"spin_up": 6.0}, TypeError, "spin_up must be a SpinUp"),
+        ({"loads": 9.81}, TypeError, "loads must be several"),
+        ({"loads": [TipForce(amplitude=1.0)]}, ValueError, "needs the frequency"),
+        ({"start": "bent"}, ValueError, "start must be 'straight', 'steady'"),
+    ],
+)
+def test_a_motion_that_is_none(change, error, sentence):
+    given = {
+        "output": "tip y", "time": 1.0, "value": 0.1, "deviation": 0.01,
+        "spin_up": SpinUp(omega=6.0, ramp_time=3.0),
+    }  # fmt: skip
+    with pytest.raises(error, match=sentence):
+        fit(Beam.reference(), [MeasuredMotion(**given | change)], ["EI3"])
 
 
 def test_a_deflection_is_from_the_unloaded_blade():
