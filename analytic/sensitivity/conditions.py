@@ -12,9 +12,7 @@ from ..motion import Motion
 from .parameters import Parameter, factor_of
 
 
-def conditions_of(
-    motion: Motion, loads: Sequence[Load] = (), unit: float = 1.0
-) -> dict[str, Parameter]:
+def conditions_of(motion: Motion, loads: Sequence[Load], unit: float) -> dict[str, Parameter]:
     """Return the numbers of a motion and of the loads by name, of a blade with a unit [rad/s].
 
     "omega", and "start" and "ramp_time" where they are fields; each load is a factor, "loads[0]".

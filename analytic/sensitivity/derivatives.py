@@ -16,6 +16,7 @@ from ..exact.free.orbits import Orbits
 from ..exact.linear.families import LinearModes
 from ..exact.linear.steady_state import SteadyState
 from ..input_checks import shown
+from ..load import Load
 from ..plotting import tornado
 from ..reduced.model import ReducedModel
 from ..theory import Theory
@@ -37,6 +38,7 @@ class Derivatives(Protocol):
     """Derivatives of the numbers of an answer."""
 
     parameters: dict[str, Parameter]
+    given: tuple[Any, Sequence[Load]]
     conditions: dict[str, Parameter]
     outputs: tuple[str, ...]
     units: tuple[str, ...]
@@ -47,6 +49,9 @@ class Derivatives(Protocol):
 
     def columns(self, several: Sequence[Parameter]) -> FloatArray:
         """Return derivatives of all numbers to `parameters`, in their units, (numbers, n)."""
+
+    def again(self, blade: Blade, motion: Any, loads: Sequence[Load]) -> dict[str, float]:
+        """Return the numbers of another blade, in another motion, under other loads, by name."""
 
 
 _KINDS: dict[type, type[Derivatives]] = {
@@ -160,6 +165,17 @@ def place_of(name: str | None, among: Sequence[str]) -> int:
     return 0 if name is None else list(among).index(name)
 
 
+def kind_of(answer: Any) -> Derivatives:
+    """Return the derivatives of an answer; TypeError of anything else."""
+    kind = _KINDS.get(type(answer))
+    if kind is None:
+        raise TypeError(
+            "answer must be what linear_modes, steady_state, periodic_orbits, forced_response, "
+            f"spin_up_response or reduced_model returns, got {shown(answer)}"
+        )
+    return kind(answer)
+
+
 @one_thread
 def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sensitivity:
     """Return how an exact answer changes with the numbers of its blade.
@@ -195,13 +211,7 @@ def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sens
      [ 0.314 -0.314]
      [ 0.407 -0.407]]
     """
-    kind = _KINDS.get(type(answer))
-    if kind is None:
-        raise TypeError(
-            "answer must be what linear_modes, steady_state, periodic_orbits, forced_response, "
-            f"spin_up_response or reduced_model returns, got {shown(answer)}"
-        )
-    found = kind(answer)
+    found = kind_of(answer)
     of_blade = parameters_of(answer.blade, answer.theory)
     known = {name: found.parameters[name] for name in of_blade if name in found.parameters}
     known |= found.conditions

@@ -12,6 +12,7 @@ from ..blade import Blade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.state import Driven
 from ..exact.continuum.vectors import cross, turned_back
+from ..load import Load
 from ..theory import Theory
 from .frozen import Kernels, frozen
 from .parameters import Parameter, parameters_of
@@ -55,7 +56,15 @@ def difference(
 
 
 class OneByOne:
-    """Derivatives to one parameter after the other."""
+    """Derivatives to one parameter after the other.
+
+    Attributes
+    ----------
+    given : tuple
+        The motion and the loads of the answer.
+    """
+
+    given: tuple[Any, Sequence[Load]]
 
     def to(self, parameter: Parameter) -> FloatArray:
         """Return the derivatives of all numbers to a parameter."""

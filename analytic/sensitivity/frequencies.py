@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -11,13 +13,15 @@ from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.state import Driven
-from ..exact.linear.families import LinearModes
+from ..exact.linear.families import LinearModes, modes_of
 from ..exact.linear.modes import linear_modes
 from ..input_checks import shown
+from ..load import Load
 from ..motion import SteadyRotation
 from ..theory import Theory
 from .conditions import conditions_of
 from .energies import AROUND, SWING, Energies, OneByOne, States, difference
+from .frozen import frozen_blade
 from .parameters import Parameter
 
 MOST = 24
@@ -33,7 +37,7 @@ class FrequencyDerivatives(OneByOne):
     def __init__(self, modes: LinearModes) -> None:
         self.outputs, self.values = modes.names, modes.frequencies
         self.units = ("rad/s",) * len(modes.names)
-        modes = in_space(modes)
+        self._modes = modes = in_space(modes)
         steady = modes.steady
         self.model: SpaceContinuum = steady.model
         self.by, self.still = Driven(steady.rate), steady.equilibrium
@@ -55,9 +59,8 @@ class FrequencyDerivatives(OneByOne):
         states = [self._around(k, shift, K) for k, shift in enumerate(shifts)]
         self._sums = Energies(self.model, modes.blade, modes.theory, states, squares)
         self.parameters = self._sums.parameters
-        self.conditions = conditions_of(
-            SteadyRotation(omega=modes.omega), unit=modes.blade.frequency_scale
-        )
+        self.given = SteadyRotation(omega=modes.omega), ()
+        self.conditions = conditions_of(*self.given, modes.blade.frequency_scale)
 
     def _swings(self, k: int, size: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return a mode's q, q̇ and q̈ about the steady state over a period."""
@@ -92,6 +95,17 @@ class FrequencyDerivatives(OneByOne):
         q, q_dot, q_ddot = map(np.concatenate, states)
         return States(q, q_dot, q_ddot, self.by, np.concatenate(weights))
 
+    def again(self, blade: Blade, motion: Any, loads: Sequence[Load]) -> dict[str, float]:
+        """Return the frequencies of another blade at another speed, by name.
+
+        By the strains of the same functions, in a steady state and an eigenvalue problem.
+        """
+        del loads
+        modes, rate = self._modes, motion.omega / self._modes.blade.frequency_scale
+        other = replace(frozen_blade(modes.steady, modes.blade, _known(blade)), rate=rate)
+        found = modes_of(modes.blade, motion.omega, modes.theory, other)
+        return dict(zip(found.names, found.frequencies.tolist(), strict=True))
+
     def to(self, parameter: Parameter) -> FloatArray:
         """Return the derivatives of all frequencies [rad/s] to a parameter."""
         sums = self._sums
@@ -113,7 +127,7 @@ def in_space(modes: LinearModes) -> LinearModes:
     require_modes(modes)
     if isinstance(modes.model, SpaceContinuum):
         return modes
-    blade, count = modes.blade.with_section_out_of_plane(_STIFF, math.inf), len(modes.names)
+    blade, count = _known(modes.blade), len(modes.names)
     # Flap comes between them where there are many, or where shear alone bends it.
     several = linear_modes(blade, modes.omega, 2 * count, theory=modes.theory)
     off = np.abs(several.frequencies / modes.frequencies[:, None] - 1.0)
@@ -124,6 +138,12 @@ def in_space(modes: LinearModes) -> LinearModes:
             "the section by with_section_out_of_plane"
         )
     return several.among(of)
+
+
+def _known(blade: Blade) -> Blade:
+    """Return a blade whose section out of its plane is known; a stiff one unless it is."""
+    known = blade.section.knows_space
+    return blade if known else blade.with_section_out_of_plane(_STIFF, math.inf)
 
 
 def modes_until(

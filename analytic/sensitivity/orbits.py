@@ -8,6 +8,7 @@ frequency is given, and the peak answers: da/dp = ∂a/∂p - λ·∂F/∂p, wit
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -18,8 +19,11 @@ from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.loading import unit_load
 from ..exact.continuum.rotation import BladeOrbit, SteadyBlade
+from ..exact.driven.forced import forced_response
 from ..exact.driven.forced_orbits import ForcedResponse
+from ..exact.free.backbone import periodic_orbits
 from ..exact.free.orbits import Orbits
+from ..load import Load
 from ..methods.fourier import waves
 from ..methods.harmonic_balance import jacobian, projected
 from ..motion import SteadyRotation
@@ -42,12 +46,11 @@ class OrbitDerivatives(OneByOne):
         )
         self.units = ("rad/s",) * len(several) + ("1",) * len(several)
         self._over, self._squares = orbits.frequency / orbits.omega_n, orbits.amplitude**2
-        self.values = np.concatenate((orbits.frequency, (1.0 - self._over) / self._squares))
+        self.values = _frequencies(orbits)
         self._orbits = orbits
         self.parameters = parameters_of(orbits.blade, orbits.theory)
-        self.conditions = conditions_of(
-            SteadyRotation(omega=orbits.omega), unit=orbits.blade.frequency_scale
-        )
+        self.given = SteadyRotation(omega=orbits.omega), ()
+        self.conditions = conditions_of(*self.given, orbits.blade.frequency_scale)
         self._linear = _linear(orbits)
         self._rows = [_adjoint(orbit) for orbit in orbits.nondimensional]
 
@@ -64,6 +67,13 @@ class OrbitDerivatives(OneByOne):
         change = frequency / self._orbits.frequency - of_linear
         return np.concatenate((frequency, -self._over * change / self._squares))
 
+    def again(self, blade: Blade, motion: Any, loads: Sequence[Load]) -> dict[str, float]:
+        """Return the numbers of another blade's orbits, at another speed, by name."""
+        del loads
+        of = self._orbits
+        other = periodic_orbits(blade, motion.omega, of.amplitude, mode=of.mode, theory=of.theory)
+        return dict(zip(self.outputs, _frequencies(other).tolist(), strict=True))
+
     def _defect(self, k: int, other: Any) -> FloatArray:
         """Return λ·F of an orbit in another blade, or at another speed."""
         orbit = self._orbits.nondimensional[k]
@@ -76,13 +86,13 @@ class ResponseDerivatives(OneByOne):
     """Derivatives of the peaks of a forced response, where asked for and at maxima."""
 
     def __init__(self, response: ForcedResponse) -> None:
-        at = [k for k, mark in enumerate(response.marks) if mark in ("asked", "peak")]
+        at = _marked(response)
         self.outputs = tuple(f"peak at {response.frequency[k]:.6g} rad/s" for k in at)
         self.units, self.values = ("1",) * len(at), response.amplitude[at]
         self._response, self._orbits = response, [response.nondimensional[k] for k in at]
         self.parameters = parameters_of(response.blade, response.theory)
-        omega = float(response.omega[0])
-        self.conditions = conditions_of(SteadyRotation(omega=omega), (response.load,))
+        self.given = SteadyRotation(omega=float(response.omega[0])), (response.load,)
+        self.conditions = conditions_of(*self.given, response.blade.frequency_scale)
         if response.load.varied == "speed":
             del self.conditions["omega"]  # it is given at every point
         self._rows = [
@@ -95,6 +105,21 @@ class ResponseDerivatives(OneByOne):
         several = range(len(self._rows))
         return np.array([difference(parameter, partial(self._peak, k), _CHANGE) for k in several])
 
+    def again(self, blade: Blade, motion: Any, loads: Sequence[Load]) -> dict[str, float]:
+        """Return the peaks of another blade, at another speed, under another load, by name.
+
+        Where a maximum comes or goes, those at the frequencies asked for alone.
+        """
+        of, (load,) = self._response, loads
+        asked = of.frequency[_marked(of, "asked")]
+        if load.varied == "speed":
+            other = forced_response(blade, asked, load, theory=of.theory)
+        else:
+            other = forced_response(blade, motion.omega, load, asked, theory=of.theory)
+        kinds = ("asked", "peak") if len(_marked(other)) == len(self.outputs) else ("asked",)
+        names = np.array(self.outputs)[np.isin(_marked(of), _marked(of, *kinds))].tolist()
+        return dict(zip(names, other.amplitude[_marked(other, *kinds)].tolist(), strict=True))
+
     def _peak(self, k: int, other: Any) -> FloatArray:
         """Return the peak less λ·F in another blade, at another speed, or under another load."""
         response, orbit = self._response, self._orbits[k]
@@ -104,6 +129,17 @@ class ResponseDerivatives(OneByOne):
         unit = response.blade.frequency_scale / units.frequency_scale
         harmonics, height = _met(orbit, replace(system, drive=unit_load(units, load)), unit)
         return np.asarray(height - harmonics @ self._rows[k])
+
+
+def _marked(response: ForcedResponse, *kinds: str) -> list[int]:
+    """Return the points that were asked for, and the greatest and least, or some of them."""
+    return [k for k, mark in enumerate(response.marks) if mark in (kinds or ("asked", "peak"))]
+
+
+def _frequencies(orbits: Orbits) -> FloatArray:
+    """Return frequencies and softening."""
+    softening = (1.0 - orbits.frequency / orbits.omega_n) / orbits.amplitude**2
+    return np.concatenate((orbits.frequency, softening))
 
 
 def _met(orbit: BladeOrbit, system: SteadyBlade, unit: float) -> tuple[FloatArray, FloatArray]:

@@ -1,4 +1,4 @@
-"""Frequencies of random blades, to see whether the first order is enough."""
+"""Answers of random blades, to see whether the first order is enough."""
 
 from __future__ import annotations
 
@@ -8,13 +8,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..arrays import FloatArray
-from ..blade import Blade
-from ..exact.linear.families import LinearModes, modes_of
 from ..input_checks import whole_number
 from ..lazily import stats
 from ..threads import one_thread
-from .frequencies import in_space, require_modes
-from .frozen import frozen_blade
+from .conditions import conditions_of
+from .derivatives import Answer, kind_of
 from .parameters import parameters_of
 from .scatter import checked_scatter, correlations
 
@@ -24,24 +22,23 @@ _FAR = 3.0
 
 @one_thread
 def sampled(
-    modes: LinearModes,
+    answer: Answer,
     scatter: Mapping[str, float],
     length: float = math.inf,
     *,
     count: int = 200,
     seed: int = 0,
 ) -> FloatArray:
-    """Return frequencies of sampled blades [rad/s], (count, modes), by name.
+    """Return an answer's numbers for sampled blades, (count, outputs), as `sensitivity` names them.
 
-    Normal deviations, clipped at three, on a Latin hypercube. The strains of the modes' functions
-    are kept, so that a sample costs a steady state and an eigenvalue problem: sections that turn
-    by 0.05 rad then leave some 1e-5 of a frequency, by 0.2 rad 5e-4. A mode whose name a sample
-    does not have is NaN.
+    Normal deviations, clipped at three, on a Latin hypercube. Every sample is solved anew, modes
+    alone with the strains of the same functions, in a fraction of a second: sections that turn by
+    0.05 rad then leave some 1e-5 of a frequency, by 0.2 rad 5e-4. A number that a sample does not
+    have, as a mode of another name, is NaN.
 
     Parameters
     ----------
-    modes : LinearModes
-        Of a blade whose section out of the plane is known, or of a planar one.
+    answer : as of `sensitivity`
     scatter, length
         As for `spread`.
     count, seed : int
@@ -56,38 +53,30 @@ def sampled(
     >>> print((found.std() / found.mean()).round(3))
     0.031
     """
-    require_modes(modes)
-    given = parameters_of(modes.blade, modes.theory)
-    modes = in_space(modes)
+    found = kind_of(answer)
     count, seed = whole_number("count", count), whole_number("seed", seed, least=0)
-    known = parameters_of(modes.blade, modes.theory)
-    deviations = checked_scatter(scatter, given)
+    known = {**parameters_of(answer.blade, answer.theory), **found.conditions}
+    deviations = checked_scatter(scatter, known)
     roots = [
-        np.linalg.cholesky(correlations(modes.blade, known, name, length)) for name in deviations
+        np.linalg.cholesky(correlations(answer.blade, known, name, length)) for name in deviations
     ]
     dims = sum(len(root) for root in roots)
     points = stats.norm.ppf(stats.qmc.LatinHypercube(dims, rng=seed).random(count))
-    result = np.full((count, len(modes.names)), np.nan)
+    result = np.full((count, len(found.outputs)), np.nan)
     for row, point in zip(result, np.clip(points, -_FAR, _FAR), strict=True):
-        blade, begin = modes.blade, 0
+        blade, given, begin = answer.blade, found.given, 0
         for (name, deviation), root in zip(deviations.items(), roots, strict=True):
             change = deviation * (root @ point[begin : begin + len(root)])
             begin += len(root)
-            blade = _changed(blade, modes, name, change)
-        row[:] = _frequencies(modes, blade)
+            condition = name in found.conditions
+            now = (
+                conditions_of(*given, answer.blade.frequency_scale)
+                if condition
+                else parameters_of(blade, answer.theory)
+            )[name]
+            value = np.maximum(now.value + change, now.least)
+            other = now.changed(value if value.size > 1 else float(value[0]))
+            blade, given = (blade, other) if condition else (other, given)
+        numbers = found.again(blade, *given)
+        row[:] = [numbers.get(name, math.nan) for name in found.outputs]
     return result
-
-
-def _changed(blade: Blade, modes: LinearModes, name: str, change: FloatArray) -> Blade:
-    parameter = parameters_of(blade, modes.theory)[name]
-    value = parameter.value + change
-    other: Blade = parameter.changed(value if value.size > 1 else float(value[0]))
-    return other
-
-
-def _frequencies(modes: LinearModes, blade: Blade) -> list[float]:
-    """Return the frequencies of the same modes of another blade [rad/s]."""
-    other = frozen_blade(modes.steady, modes.blade, blade)
-    found = modes_of(modes.blade, modes.omega, modes.theory, other)
-    by_name = dict(zip(found.names, found.frequencies.tolist(), strict=True))
-    return [by_name.get(name, math.nan) for name in modes.names]

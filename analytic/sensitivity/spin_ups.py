@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays import FloatArray, few_at_once
 from ..blade import Blade
-from ..exact.driven.response import SpinUpResponse
+from ..exact.driven.response import SpinUpResponse, spin_up_response
 from ..exact.driven.start import started
 from ..exact.driven.transient import Steps, drive
 from ..lazily import linalg, optimize
@@ -23,7 +23,7 @@ from .conditions import conditions_of
 from .energies import difference
 from .frozen import model_of
 from .parameters import Parameter, parameters_of
-from .steady import SteadyDerivatives, places_and_loads
+from .steady import SteadyDerivatives, places_and_loads, units_of
 
 _CHANGE = 1e-4  # of a parameter over its size
 _AROUND = 1e-4  # of a state, where its numbers are compared
@@ -53,9 +53,7 @@ class _Case(NamedTuple):
 
     def numbers(self, time: FloatArray, states: FloatArray) -> FloatArray:
         """Return the tip's place and twist, and force and moment at the root, (times, 10)."""
-        length, force = self.unit.length, self.unit.bending_stiffness / self.unit.length**2
-        unit = np.repeat([length, 1.0, force, force * length], [3, 1, 3, 3])
-        return unit * self.of_states(
+        return units_of(self.unit) * self.of_states(
             lambda *state: places_and_loads(self.model, *state), time, states
         )
 
@@ -71,9 +69,8 @@ class SpinUpDerivatives:
         )
         self._case = _Case(response.model, response.blade, response.spin_up, response.loads)
         self.parameters = parameters_of(response.blade, response.theory)
-        self.conditions = conditions_of(
-            response.spin_up, response.loads, response.blade.frequency_scale
-        )
+        self.given: tuple[Any, Sequence[Load]] = response.spin_up, response.loads
+        self.conditions = conditions_of(*self.given, response.blade.frequency_scale)
         names, units = SteadyDerivatives.outputs, SteadyDerivatives.units
         instants, parts = self._extremes()
         self._time = np.concatenate((instants, response.time))
@@ -83,6 +80,15 @@ class SpinUpDerivatives:
         self.outputs = (*parts, *at)
         self.units = tuple(units[of[0][1]] for of in self._parts)
         self.values = self._picked(self._case.numbers(self._time, self._states(self._time)))
+
+    def again(self, blade: Blade, motion: Any, loads: Sequence[Load]) -> dict[str, float]:
+        """Return the numbers of another blade, in another rotation, under other loads, by name."""
+        of = self._response
+        other = SpinUpDerivatives(spin_up_response(
+            blade, motion, of.time, loads=loads, start=of.start, kick=of.kick, bent=of.bent,
+            theory=of.theory, tolerance=of.tolerance,
+        ))  # fmt: skip
+        return dict(zip(other.outputs, other.values.tolist(), strict=True))
 
     def _states(self, time: FloatArray) -> FloatArray:
         return self._in_seconds(self._steps.at(time))

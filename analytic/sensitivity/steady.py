@@ -10,6 +10,7 @@ moves, it is of the residual: ∂y/∂p less λ·∂r/∂p, with λ of the tange
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -18,11 +19,13 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
+from ..exact.continuum.loading import unit_load
 from ..exact.continuum.rotation import Model, SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.state import Driven
-from ..exact.linear.steady_state import SteadyState
+from ..exact.linear.steady_state import SteadyState, steady_state
 from ..lazily import spatial
+from ..load import Load
 from ..motion import SteadyRotation
 from .conditions import conditions_of
 from .energies import AROUND, SWING, Energies, OneByOne, States, difference
@@ -46,13 +49,9 @@ class SteadyDerivatives(OneByOne):
     units: tuple[str, ...] = ("m",) * 3 + ("rad",) + ("N",) * 3 + ("N m",) * 3
 
     def __init__(self, state: SteadyState) -> None:
-        self._blade, self._steady = state.blade, state.steady
-        q = self._steady.equilibrium
-        force = self._blade.bending_stiffness / self._blade.length**2
-        lengths = [self._blade.length] * 3 + [1.0]
-        self._unit = np.array(lengths + [force] * 3 + [force * self._blade.length] * 3)
-        values = _outputs(self._steady, q[None])[0]
-        self.values = self._unit * _without_noise(values)
+        self._state, self._blade, self._steady = state, state.blade, state.steady
+        self._unit = units_of(self._blade)
+        self.values = _numbers(state)
         by = self._steady.by()
         self.potential = not by.follow and (by.push is None or not by.push[2].any())
         self._adjoint = self._adjoints()
@@ -61,9 +60,8 @@ class SteadyDerivatives(OneByOne):
             self._adjoint = self._adjoints()
         self._theory = state.theory
         self.parameters = parameters_of(self._blade, self._theory)
-        self.conditions = conditions_of(
-            SteadyRotation(omega=state.omega), self._steady.loads, self._blade.frequency_scale
-        )
+        self.given = SteadyRotation(omega=state.omega), state.acting
+        self.conditions = conditions_of(*self.given, self._blade.frequency_scale)
 
     @cached_property
     def _sums(self) -> Energies:
@@ -99,6 +97,11 @@ class SteadyDerivatives(OneByOne):
         none = np.zeros((along.size, q.size))
         return States(q + np.outer(size * along, way), none, none, by, weights / size)
 
+    def again(self, blade: Blade, motion: Any, loads: Sequence[Load]) -> dict[str, float]:
+        """Return the numbers of another blade, at another speed, under other loads, by name."""
+        other = steady_state(blade, motion.omega, loads=loads, theory=self._state.theory)
+        return dict(zip(self.outputs, _numbers(other).tolist(), strict=True))
+
     def to(self, parameter: Parameter) -> FloatArray:
         """Return the derivatives of all outputs to a parameter, in their units."""
         if parameter.name in self.conditions:
@@ -118,7 +121,8 @@ class SteadyDerivatives(OneByOne):
         motion, loads = other
         return self._in(replace(
             self._steady, rate=motion.omega / self._blade.frequency_scale,
-            loads=tuple(loads), near=self._steady.equilibrium, given=None,
+            loads=tuple(unit_load(self._blade, load) for load in loads),
+            near=self._steady.equilibrium, given=None,
         ))  # fmt: skip
 
     def _in(self, other: SteadyBlade) -> FloatArray:
@@ -155,6 +159,18 @@ def moved(model: SpaceContinuum, acting: Driven, output: int, sizes: FloatArray)
 def _without_noise(values: FloatArray, size: float = 1.0) -> FloatArray:
     """Return values, or derivatives to a number of a size, with zeros for round-off."""
     return np.where(np.abs(values) * size < _ROUND_OFF, 0.0, values)
+
+
+def units_of(blade: Blade) -> FloatArray:
+    """Return the units of place, twist, force and moment, (10,)."""
+    force = blade.bending_stiffness / blade.length**2
+    return np.repeat([blade.length, 1.0, force, force * blade.length], [3, 1, 3, 3])
+
+
+def _numbers(state: SteadyState) -> FloatArray:
+    """Return the outputs, in their units."""
+    values = _outputs(state.steady, state.steady.equilibrium[None])[0]
+    return units_of(state.blade) * _without_noise(values)
 
 
 def _outputs(steady: SteadyBlade, q: FloatArray) -> FloatArray:

@@ -22,6 +22,7 @@ from .output import bar, formatted, print_columns, print_text
 from .request import Request, uses
 
 if TYPE_CHECKING:
+    from analytic.arrays import FloatArray
     from analytic.sensitivity import Sensitivity, Spread
 
 _SAMPLES = 501  # of a spin-up
@@ -43,6 +44,7 @@ def sensitivity(
     rows: Whole = 15,
     scatter: Annotated[tuple[str, ...], Parameter(consume_multiple=True)] = (),
     length: Number | None = None,
+    samples: Whole = 0,
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
@@ -73,6 +75,8 @@ def sensitivity(
     length
         Correlation length of the scatter along the blade [m]; unless given, all stations are off
         together.
+    samples
+        Number of random blades that are solved anew, to see whether the first order is enough.
     out
         Folder for netCDF and CSV; without it none is written.
     force
@@ -87,14 +91,15 @@ def sensitivity(
     $ rotbeam sensitivity --spin-up --omega 6 --ramp-time 3 --duration 6
     $ rotbeam sensitivity --omega 6 --section rectangle --count 3 -o results
     """
+    from analytic.sensitivity import sampled, spread
     from analytic.sensitivity import sensitivity as sensitivity_of
-    from analytic.sensitivity import spread
 
     names = "omega", "ramp_time", "duration"
     given = {name: request.values[name] for name in names if name in request.values}
     given |= {} if omega is None else {"omega": omega}
     speed = rotation_speed(given.get("omega", 0.0))
     whole_number("rows", rows, least=0)
+    whole_number("samples", samples, least=0)
     deviations, correlated = request.scatter(scatter, length)
     kinds = {"steady": steady, "spin-up": spin_up, "amplitude": amplitude}
     chosen = [name for name, asked in kinds.items() if asked]
@@ -138,16 +143,25 @@ def sensitivity(
             ),
         )
     if scattered:
-        _print_spread(found, scattered)
+        several = None
+        if samples:
+            with bar("samples"):
+                several = sampled(answer, deviations, correlated, count=samples)
+        _print_spread(found, scattered, several)
 
 
-def _print_spread(found: Sensitivity, result: Spread) -> None:
+def _print_spread(found: Sensitivity, result: Spread, samples: FloatArray | None) -> None:
     few = slice(_printed(found))
+    of_samples = {}
+    if samples is not None:
+        off = np.nanstd(samples[:, few], axis=0)
+        of_samples = {f"± of {len(samples)} samples": formatted(off, ".3g")}
     shares = zip(result.parameters, result.shares[few].T, strict=True)
     print_columns(
         {
             **_values(found),
             "±": formatted(result.deviations[few], ".3g"),
+            **of_samples,
             "± [%]": formatted(100.0 * result.relative[few], ".3g"),
             **{f"of {name} [%]": formatted(100.0 * of, ".1f") for name, of in shares},
         },

@@ -52,7 +52,7 @@ class SpinUpResponse:
 
     Attributes
     ----------
-    blade, spin_up, loads, start, kick, bent, theory : as given
+    blade, spin_up, loads, start, kick, bent, theory, tolerance : as given
     time : ndarray (times,)
         Times [s].
     q : ndarray (times,)
@@ -84,6 +84,7 @@ class SpinUpResponse:
     kick: float
     bent: float
     theory: Theory
+    tolerance: float
     time: FloatArray
     q: FloatArray = field(repr=False)
     q_dot: FloatArray = field(repr=False)
@@ -262,6 +263,7 @@ def spin_up_response(
         kick=kick,
         bent=bent,
         theory=theory,
+        tolerance=tolerance,
         time=time,
         points=blade.length * along,
         q=blade.length * finer.q,

@@ -59,6 +59,11 @@ class SteadyState:
     error: float
     steady: SteadyBlade = field(repr=False)
 
+    @property
+    def acting(self) -> tuple[Load, ...]:
+        """All loads: those given, then force and moment, then gravity."""
+        return _acting(self.loads, PointLoad(force=self.force, moment=self.moment), self.gravity)
+
     def axis(self, x: ArrayLike) -> FloatArray:
         """Return the places of the points `x` [m] of the line, as `tip`, (points, 3)."""
         at = points_of_beam("x", x, self.blade.length)
@@ -134,8 +139,7 @@ def steady_state(
     warn_if_rpm(blade, omega)
     pull = PointLoad(force=force, moment=moment)
     gravity, loads = finite_number("gravity", gravity, "m/s^2"), loads_at_once(loads)
-    acting = [*loads, *[pull] * bool(pull.size)]
-    acting += [Gravity(gravity, tilt=0.5 * math.pi)] * bool(gravity)
+    acting = _acting(loads, pull, gravity)
     first = rotating_blade(
         blade, omega, space_continuum(blade, theory, FUNCTIONS, acting),
         loads=tuple(unit_load(blade, load) for load in acting),
@@ -153,6 +157,11 @@ def steady_state(
         gravity=gravity, loads=loads, tip=blade.length * steady.tip, error=error, steady=steady,
         twist=float(steady.model.tip_turn(steady.equilibrium[None])[0]),
     )  # fmt: skip
+
+
+def _acting(loads: Sequence[Load], pull: PointLoad, gravity: float) -> tuple[Load, ...]:
+    weight = [Gravity(gravity, tilt=0.5 * math.pi)] * bool(gravity)
+    return (*loads, *[pull] * bool(pull.size), *weight)
 
 
 def stretched_state(blade: Blade, omega: float, x: ArrayLike) -> BladeState:

@@ -3,7 +3,22 @@
 import numpy as np
 import pytest
 
-from analytic import Beam, Theory, campbell, linear_modes
+from analytic import (
+    Beam,
+    Damping,
+    Gravity,
+    PointLoad,
+    SpinUp,
+    Theory,
+    TipForce,
+    campbell,
+    forced_response,
+    linear_modes,
+    periodic_orbits,
+    reduced_model,
+    spin_up_response,
+    steady_state,
+)
 from analytic.sensitivity import campbell_spread, parameters_of, sampled, sensitivity, spread
 from tests.beams import irregular, unit_beam
 
@@ -65,10 +80,48 @@ def test_a_sample_is_a_blade_of_its_own(modes, monkeypatch):
         np.testing.assert_allclose(found, anew.frequencies, rtol=3e-5)
 
 
+BEAM = Beam.reference()
+SPUN = SpinUp(omega=6.0, ramp_time=3.0)
+STIRRED = BEAM.with_damping(Damping(external=0.1))
+ANSWERS = {
+    "a steady state": lambda: (
+        steady_state(STRIP, 1.0, loads=[PointLoad(force=(0.0, 0.0, 0.01))]),
+        {"EI2": 0.02, "loads[0]": 0.02},
+    ),
+    "orbits": lambda: (periodic_orbits(BEAM, 6.0, [0.1]), {"EI3": 0.02, "omega": 0.05}),
+    "a response": lambda: (
+        forced_response(STIRRED, 6.0, TipForce(amplitude=0.3), [3.4, 3.5]),
+        {"EI3": 0.01, "loads[0]": 0.02},
+    ),
+    "under gravity": lambda: (
+        forced_response(STIRRED, [5.0, 5.1], Gravity(1.0)), {"EI3": 0.01, "loads[0]": 0.02},
+    ),
+    "a spin-up": lambda: (
+        spin_up_response(BEAM, SPUN, [2.0], tolerance=1e-4), {"EI3": 0.01, "ramp_time": 0.03},
+    ),
+    "a model": lambda: (reduced_model(BEAM, 6.0, "FrM"), {"EI3": 0.02, "omega": 0.05}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_a_sample_of_every_answer_is_solved_anew(name, monkeypatch):
+    """Two, half a deviation to both sides: what is not linear cancels but for the third power."""
+    monkeypatch.setattr("scipy.stats.norm.ppf", lambda x: np.array([[0.5], [-0.5]]))
+    answer, scatter = ANSWERS[name]()
+    found = sensitivity(answer, [*scatter])
+    for one, deviation in scatter.items():
+        ahead, behind = sampled(answer, {one: deviation}, count=2)
+        slopes = deviation * found.derivatives[:, found.names.index(one)]
+        size = np.abs(found.values) + np.abs(slopes)
+        size[size == 0.0] = 1.0
+        assert np.abs(slopes).max() > 0.0
+        np.testing.assert_allclose((ahead - behind) / size, slopes / size, atol=1e-3)
+
+
 def test_of_what_is_no_sensitivity():
     with pytest.raises(TypeError, match=r"found must be what sensitivity returns, got 3\.0"):
         spread(3.0, {"EI3": 0.1})
-    with pytest.raises(TypeError, match=r"modes must be what linear_modes returns, got 3\.0"):
+    with pytest.raises(TypeError, match=r"answer must be what linear_modes, .* returns, got 3\.0"):
         sampled(3.0, {"EI3": 0.1})
     with pytest.raises(ValueError, match="scatter has no parameter 'EI2'; there are EA, EI3, m"):
         sampled(linear_modes(Beam.reference(), 0.0, 1), {"EI2": 0.1})
