@@ -139,6 +139,10 @@ class Sensitivity:
         row, column = place_of(output, self.outputs), place_of(parameter, self.names)
         return float(self.derivatives[row, column])
 
+    def over_time(self, number: str) -> FloatArray:
+        """Return derivatives of a spin-up's number, as "tip y", over time, (times, parameters)."""
+        return np.asarray(self.derivatives[rows_over_time(self.answer, self.outputs, number)])
+
     def plot(self, output: str | None = None, ax: Axes | None = None) -> Axes:
         """Draw what a small change of each parameter does to an output, the largest first.
 
@@ -156,6 +160,17 @@ class Sensitivity:
         changes = self.derivatives[row] * [one.step for one in self.parameters]
         label = f"change of {self.outputs[row]} [{self.units[row]}]"
         return tornado(names, changes, label, ax)
+
+
+def rows_over_time(answer: Answer, outputs: Sequence[str], number: str) -> list[int]:
+    """Return the places of a spin-up's number at all its times."""
+    rows = [k for k, name in enumerate(outputs) if name.startswith(f"{number} at ")]
+    if not isinstance(answer, SpinUpResponse) or not rows:
+        raise ValueError(
+            f"there is no {shown(number)} over time: the answer must be a spin-up, and the number "
+            "'tip y' or another"
+        )
+    return rows
 
 
 def place_of(name: str | None, among: Sequence[str]) -> int:

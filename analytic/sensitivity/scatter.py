@@ -12,13 +12,12 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
-from ..exact.driven.response import SpinUpResponse
 from ..exact.linear.campbell import Campbell
 from ..exact.linear.families import LinearModes
 from ..input_checks import not_negative, positive, shown
 from ..plotting import axes_or_new, tornado
 from ..threads import one_thread
-from .derivatives import Answer, Sensitivity, place_of, sensitivity
+from .derivatives import Answer, Sensitivity, place_of, rows_over_time, sensitivity
 from .frequencies import modes_until
 from .parameters import Parameter, parameters_of
 
@@ -91,17 +90,11 @@ class Spread:
         ax : Axes, optional
             Drawn on these; otherwise on a new figure.
         """
-        rows = [k for k, name in enumerate(self.outputs) if name.startswith(f"{number} at ")]
-        if not isinstance(self.answer, SpinUpResponse) or not rows:
-            raise ValueError(
-                f"there is no {shown(number)} over time: give the spread of a spin-up, and 'tip y' "
-                "or another of its numbers"
-            )
+        rows = rows_over_time(self.answer, self.outputs, number)
         value, half, axes = self.values[rows], 2.0 * self.deviations[rows], axes_or_new(ax)
-        (line,) = axes.plot(self.answer.time, value)
-        axes.fill_between(
-            self.answer.time, value - half, value + half, color=line.get_color(), alpha=0.2, lw=0.0
-        )
+        time = self.answer.time  # type: ignore[union-attr]
+        (line,) = axes.plot(time, value)
+        axes.fill_between(time, value - half, value + half, color=line.get_color(), alpha=0.2, lw=0)
         axes.set(xlabel="time [s]", ylabel=f"{number} [{self.units[rows[0]]}]")
         return axes
 

@@ -11,6 +11,7 @@ from analytic import (
     SteadyRotation,
     Theory,
     TipForce,
+    design_ramp,
     residual_amplitude,
     spin_up_response,
     steady_state,
@@ -175,3 +176,18 @@ def test_a_band_over_time():
     assert found.deviations[far] == pytest.approx(0.1 * abs(response.lag[-1]), rel=1e-3)
     with pytest.raises(ValueError, match="there is no 'lag 1' over time"):
         found.plot_over_time("lag 1")
+
+
+def test_what_disturbs_a_quiet_ramp():
+    """No swing has no derivative; that of the lag swings as a ramp does for another blade."""
+    beam = Beam.reference()
+    motion = design_ramp(beam, omega=2.0, duration=4.0)
+    times = np.linspace(0.0, 6.2, 156)
+    found = sensitivity(spin_up_response(beam, motion, times, tolerance=1e-6), ["EI3"])
+    swing = np.ptp(found.over_time("tip y")[times >= 4.0, 0]) / 2.0 / beam.length
+    stiffer = parameters_of(beam, Theory())["EI3"].changed(1.01)
+    left, before = (residual_amplitude(one, motion, exact=True) for one in (stiffer, beam))
+    assert before < 0.01 * left
+    assert 0.01 * swing == pytest.approx(left, rel=0.03)
+    with pytest.raises(ValueError, match="there is no 'lag' over time"):
+        found.over_time("lag")
