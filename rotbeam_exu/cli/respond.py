@@ -21,13 +21,15 @@ from .request import Request, uses
 if TYPE_CHECKING:
     from analytic.exact.driven.forced_orbits import ForcedResponse
 
+_AROUND = 0.9, 1.1  # of lag 1's frequency
+
 
 @uses("omega", "load", "damping", "theory")
 def respond(
     request: Request,
     *,
-    first: Annotated[Number, Parameter(name="--from")],
-    last: Annotated[Number, Parameter(name="--to")],
+    first: Annotated[Number | None, Parameter(name="--from")] = None,
+    last: Annotated[Number | None, Parameter(name="--to")] = None,
     points: Whole = 41,
     functions: Whole = 10,
     no_figure: NoFigure = False,
@@ -41,10 +43,10 @@ def respond(
     Parameters
     ----------
     first
-        Drive frequency at which the curve begins [rad/s]; under gravity, which goes around once a
-        turn, the rotation speed, in place of --omega.
+        Drive frequency at which the curve begins [rad/s]; unless given, 0.9 times lag 1's.
+        Under gravity, which goes around once a turn, the rotation speed, in place of --omega.
     last
-        Drive frequency at which it ends [rad/s].
+        Drive frequency at which it ends [rad/s]; unless given, 1.1 times lag 1's.
     points
         Number of frequencies, ends included, at which the curve has points.
     functions
@@ -52,6 +54,7 @@ def respond(
 
     Examples
     --------
+    $ rotbeam respond --omega 6 --tip-force 0.5 --damping-ratio 0.02
     $ rotbeam respond --omega 6 --ripple 0.003 --damping-ratio 0.001 --from 3.6 --to 4
     $ rotbeam respond --gravity --external-damping 0.3 --from 4 --to 6 --points 5
     """
@@ -81,6 +84,7 @@ def respond(
         )
     elif "omega" in request.values:
         warn(f"{request.config}: under --{option_of(type(load))} omega of [motion] is not used")
+    first, last = _ends(request, omega, first, last)
     if positive("from", first, "rad/s") >= positive("to", last, "rad/s"):
         raise ValueError(f"--to must be above --from, got {last:g} and {first:g} rad/s")
     frequencies = np.linspace(first, last, whole_number("points", points, least=2))
@@ -103,6 +107,22 @@ def respond(
         table=lambda data: data.drop_dims(["harmonic", "orbit"], errors="ignore"),
         draw=None if no_figure else lambda figures, data: figures.forced_response(data),
     )  # fmt: skip
+
+
+def _ends(
+    request: Request, omega: float | None, first: float | None, last: float | None
+) -> tuple[float, float]:
+    """Return both ends as given, or about the resonance of lag 1, to three digits."""
+    if first is not None and last is not None:
+        return first, last
+    if omega is None:
+        raise ValueError("give the rotation speeds between which to follow it, --from and --to")
+    modes = analytic.linear_modes(request.blade, omega, 1, theory=request.theory, only="lag")
+    own = (float(f"{share * modes.frequencies[0]:.3g}") for share in _AROUND)
+    low, high = (
+        of if given is None else given for of, given in zip(own, (first, last), strict=True)
+    )
+    return low, high
 
 
 def _print(response: ForcedResponse, data: xr.Dataset) -> None:
