@@ -2,7 +2,7 @@ from .beam import Beam as Beam
 from .blade import Blade as Blade
 from .exact.driven.forced import forced_response as forced_response
 from .exact.driven.forced_orbits import ResponseNotReachedError as ResponseNotReachedError
-from .exact.driven.response import spin_up_response as spin_up_response
+from .exact.driven.spin_up import spin_up_response as spin_up_response
 from .exact.free.backbone import backbone as backbone
 from .exact.free.backbone import backbone_curve as backbone_curve
 from .exact.free.backbone import periodic_orbits as periodic_orbits

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.unit import space_unit
-from ..exact.driven.response import spin_up_response
+from ..exact.driven.spin_up import spin_up_response
 from ..exact.linear.steady_state import steady_state
 from ..input_checks import (
     finite_number,

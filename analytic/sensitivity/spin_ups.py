@@ -14,7 +14,8 @@ import numpy as np
 
 from ..arrays import FloatArray, few_at_once
 from ..blade import Blade
-from ..exact.driven.response import SpinUpResponse, spin_up_response
+from ..exact.driven.response import SpinUpResponse
+from ..exact.driven.spin_up import spin_up_response
 from ..exact.driven.start import started
 from ..exact.driven.transient import Steps, drive
 from ..lazily import linalg, optimize

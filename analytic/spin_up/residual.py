@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from ..arrays import ComplexArray, FloatArray
 from ..blade import Blade
 from ..blade_checks import require_planar
-from ..exact.driven.response import spin_up_response
+from ..exact.driven.spin_up import spin_up_response
 from ..exact.linear.modes import driven_modes
 from ..input_checks import finite_array, flag, positive
 from ..lazily import interpolate

@@ -144,7 +144,7 @@ def test_orbits_too_fast(beam, monkeypatch):
 
 
 def test_spin_up_tolerance(beam, monkeypatch):
-    monkeypatch.setattr("analytic.exact.driven.response._REFINEMENTS", 2)
+    monkeypatch.setattr("analytic.exact.driven.spin_up._REFINEMENTS", 2)
     jerk, times = SpinUp(omega=2.0, ramp_time=0.3), [0.5]
     said = complaint(spin_up_response, beam, jerk, times, tolerance=1e-10)
     tolerance = float(re.search(r"take tolerance=([0-9.e+-]+) or a longer ramp", said)[1])
