@@ -43,8 +43,8 @@ def respond(
     Parameters
     ----------
     first
-        Drive frequency at which the curve begins [rad/s]; unless given, 0.9 times lag 1's.
-        Under gravity, which goes around once a turn, the rotation speed, in place of --omega.
+        Drive frequency at which the curve begins [rad/s]; unless given, 0.9 times lag 1's. Under
+        gravity, which goes around once a turn, the rotation speed.
     last
         Drive frequency at which it ends [rad/s]; unless given, 1.1 times lag 1's.
     points

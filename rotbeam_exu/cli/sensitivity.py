@@ -48,7 +48,7 @@ def sensitivity(
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
-    """Print what each number does to a blade's frequencies, loads or motion.
+    """Print what each number does to a blade's modes and motion.
 
     Of the exact blade. Stiffness, mass, offsets and twist of a table at each of its stations, too;
     those first that change a frequency most. Of a spin-up numbers of the whole blade.

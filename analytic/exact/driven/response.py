@@ -47,6 +47,8 @@ class SpinUpResponse:
     error : float
         Estimated error of the tip's position over the largest |q|, and of the twist: the difference
         from the next coarser solution in step and functions, hence an upper estimate.
+    model, steps_taken : Continuum or SpaceContinuum, and Steps
+        The discretization, and the accelerations at the nodes of all steps.
     steps, functions : int
         Steps of order 15 and functions for θ, or each curvature, of the solution returned.
     """

@@ -117,7 +117,7 @@ def test_damped_thick_and_loaded_the_moment_is_that_of_the_section_too(beam):
         blade, SpinUp(omega=4.0, ramp_time=2.0), np.linspace(0.5, 3.0, 6), tolerance=1e-7,
         theory=theory, loads=loads,
     )  # fmt: skip
-    model, per_second = found._model, blade.frequency_scale
+    model, per_second = found.model, blade.frequency_scale
     q, q_dot, _ = found._state[:, :, : model.bending]
     bent = (q + eta * per_second * q_dot) @ model._across.strain(np.array(x) / blade.length).T
     law = blade.bending_stiffness / blade.length * bent
@@ -141,7 +141,7 @@ def test_the_power_of_the_root_loads_is_the_rate_of_the_energy(beam, spin_up, hu
     torque = -(root.moment[:, 0, 2] + hub * root.force[:, 0, 1])
     work = 3.0 * weights @ (torque * spin_up.rate(times))[:-1]
     x, dx = gauss_points(40)
-    model, length, per_second = found._model, blade.length, blade.frequency_scale
+    model, length, per_second = found.model, blade.length, blade.frequency_scale
     q, q_dot, _ = found._state[:, -1:]
     z = hub + length * model.integrated(model.slope(q), x)
     z_dot = length * per_second * model.integrated(model.slope_rate(q, q_dot), x)
