@@ -84,9 +84,10 @@ def parameters_of(blade: Blade, theory: Theory) -> dict[str, Parameter]:
 
     EA, EI3 (in the plane of bending at the setting angle zero), EI2, GJ, m and j, the rotary
     inertia, are factors for all the blade; `hub_radius`, `setting_angle` and `precone`;
-    `point_mass[k]`. Of a table all stiffnesses and masses about their centers, and by `tension2`,
-    `center3` and so on a shift of the centers of tension and mass along axis 2 or 3; each of these
-    and the twist at every station, as `EI3[4]`.
+    `point_mass[k]`; `damping_bending` and so on, factors of the coefficients. Of a table all
+    stiffnesses and masses about their centers, and by `tension2`, `center3` and so on a shift of
+    the centers of tension and mass along axis 2 or 3; each of these and the twist at every station,
+    as `EI3[4]`.
 
     Examples
     --------
@@ -167,6 +168,14 @@ def _of_line(blade: Blade) -> Iterator[Parameter]:
         yield Parameter(
             f"point_mass[{k}]", one.mass, "kg", one.mass, partial(_other_mass, blade, k)
         )
+
+    for name, value in vars(blade.damping).items():
+        if value:
+            yield factor_of(f"damping_{name}", partial(_other_damping, blade, name, value))
+
+
+def _other_damping(blade: Blade, name: str, value: float, factor: float) -> Blade:
+    return blade.with_damping(replace(blade.damping, **{name: factor * value}))
 
 
 def _other_mass(blade: Blade, k: int, mass: float) -> Blade:

@@ -36,7 +36,7 @@ _STEP = 1e-5  # of coordinates, which are of the size of one
 _CHANGE = 1e-4  # of a parameter over its size, where residuals are compared
 _ROUND_OFF = 1e-12  # without dimensions
 _SEEN = 1e-6  # part of a strain that the functions lack
-_ENDS = np.array([0.0, 1.0])
+_CLAMP, _TIP = np.zeros(1), np.ones(1)
 
 
 class SteadyDerivatives(OneByOne):
@@ -184,9 +184,7 @@ def places_and_loads(model: Model, *state: Any) -> FloatArray:
 
     In states q, q̇, q̈ and what drives them. All without dimensions, and in the frame of the clamp.
     """
-    places, sections = model.standing(state[0], _ENDS)
-    loads = (
-        np.einsum("sij,sj->si", sections[:, 0], one[:, 0])
-        for one in model.section_loads(_ENDS[:1], *state)
-    )
-    return np.hstack((places[:, 1], model.tip_turn(state[0])[:, None], *loads))
+    ((section,),) = model.standing(state[0][:1], _CLAMP)[1]  # which is held
+    loads = (one[:, 0] @ section.T for one in model.section_loads(_CLAMP, *state))
+    places = model.places(state[0], _TIP)[:, 0]
+    return np.hstack((places, model.tip_turn(state[0])[:, None], *loads))

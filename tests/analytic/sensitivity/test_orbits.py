@@ -10,6 +10,7 @@ from analytic import (
     Theory,
     TipForce,
     forced_response,
+    linear_modes,
     periodic_orbits,
 )
 from analytic.sensitivity import parameters_of, sensitivity
@@ -138,3 +139,17 @@ def test_speed_and_load():
     weight = sensitivity(weighed(Beam.reference().with_damping(Damping(external=0.1))))
     assert weight.names[-1] == "loads[0]"
     assert "omega" not in weight.names
+
+
+@pytest.mark.parametrize("name", ["damping_external", "damping_bending"])
+def test_a_peak_goes_with_one_over_the_damping(name):
+    """Of a small load, at resonance; free vibration does not depend on it."""
+    damping = {name.removeprefix("damping_"): 0.02}
+    blade = Beam.reference().with_damping(Damping(**damping))
+    response = forced_response(blade, 6.0, TipForce(amplitude=1e-3), [3.6, 3.9], harmonics=4)
+    found = sensitivity(response, [name])
+    assert "peak" in response.marks
+    row = int(np.argmax(found.values))
+    assert found.relative[row, 0] == pytest.approx(-1.0, abs=2e-3)
+    still = sensitivity(linear_modes(blade, 6.0, 2), [name])
+    assert (still.derivatives == 0.0).all()
