@@ -27,6 +27,7 @@ from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import unit_beam
 
 pytestmark = pytest.mark.benchmarks
+BLADES = Path(__file__).parents[2] / "models" / "blades"
 
 
 def seconds(function, repeats=3, clock=time.perf_counter):
@@ -171,17 +172,18 @@ def test_one_model(benchmark, variant, limit):
 
 
 @pytest.mark.parametrize(
-    "blade",
+    ("blade", "omega", "most"),
     [
-        Beam.reference(),
-        Beam.reference().with_section_out_of_plane(4.0, 0.5).with_twist(0.3),
+        (Beam.reference(), 4.0, 4.0),
+        (Beam.reference().with_section_out_of_plane(4.0, 0.5).with_twist(0.3), 4.0, 4.0),
+        (load_beam(BLADES / "nrel_5mw.toml"), 1.0, 15.0),
     ],
 )
-def test_all_derivatives_of_a_spin_up_cost_a_few_motions(blade):
-    """Two to three were measured, as docs/howto/sensitivity.md says."""
-    motion, times = SpinUp(omega=4.0, ramp_time=5.0), np.linspace(0.0, 9.0, 61)
+def test_derivatives_of_a_spin_up_cost_a_few_motions(blade, omega, most):
+    """Two to three were measured, and nine of NREL's, as docs/howto/sensitivity.md says."""
+    motion, times = SpinUp(omega=omega, ramp_time=5.0), np.linspace(0.0, 9.0, 61)
     begin = time.process_time()
-    response = spin_up_response(blade, motion, times, tolerance=1e-6)
+    response = spin_up_response(blade, motion, times, tolerance=1e-5)
     solved = time.process_time()
     sensitivity(response)
-    assert (time.process_time() - solved) / (solved - begin) < 4.0
+    assert (time.process_time() - solved) / (solved - begin) < most
