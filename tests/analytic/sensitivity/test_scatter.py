@@ -8,6 +8,7 @@ from analytic import (
     Damping,
     Gravity,
     PointLoad,
+    RotbeamWarning,
     SpinUp,
     Theory,
     TipForce,
@@ -116,6 +117,16 @@ def test_a_sample_of_every_answer_is_solved_anew(name, monkeypatch):
         size[size == 0.0] = 1.0
         assert np.abs(slopes).max() > 0.0
         np.testing.assert_allclose((ahead - behind) / size, slopes / size, atol=1e-3)
+
+
+def test_a_sample_without_an_answer_is_on_record(monkeypatch):
+    """A ramp cannot take less than no time; the other sample is there all the same."""
+    monkeypatch.setattr("scipy.stats.norm.ppf", lambda x: np.array([[0.1], [-3.0]]))
+    answer = spin_up_response(BEAM, SPUN, [2.0], tolerance=1e-4)
+    with pytest.warns(RotbeamWarning, match="1 of 2 samples are without .* ramp_time must be"):
+        found = sampled(answer, {"ramp_time": 1.5}, count=2)
+    assert np.isfinite(found[0]).sum() > 10
+    assert np.isnan(found[1]).all()
 
 
 def test_of_what_is_no_sensitivity():
