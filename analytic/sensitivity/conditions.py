@@ -7,6 +7,7 @@ from dataclasses import fields, replace
 from functools import partial
 from typing import Any
 
+from ..blade import Blade
 from ..load import Load
 from ..motion import Motion
 from .parameters import Parameter, factor_of
@@ -38,4 +39,11 @@ def _otherwise(
 def _other_load(
     motion: Motion, loads: Sequence[Load], k: int, factor: float
 ) -> tuple[Motion, Sequence[Load]]:
-    return motion, tuple(load.times(factor if n == k else 1.0) for n, load in enumerate(loads))
+    return motion, tuple(load.times(factor) if n == k else load for n, load in enumerate(loads))
+
+
+def case_of(
+    other: Any, blade: Blade, given: tuple[Any, Sequence[Load]]
+) -> tuple[Blade, Any, Sequence[Load]]:
+    """Return blade, motion and loads, of which `other` is another blade, or a motion and loads."""
+    return (other, *given) if isinstance(other, Blade) else (blade, *other)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -40,6 +40,8 @@ class Derivatives(Protocol):
     parameters: dict[str, Parameter]
     given: tuple[Any, Sequence[Load]]
     conditions: dict[str, Parameter]
+    each_station: ClassVar[bool]
+    """Whether numbers of single stations are taken unless others are named."""
     outputs: tuple[str, ...]
     units: tuple[str, ...]
     values: FloatArray
@@ -111,8 +113,7 @@ class Sensitivity:
     @property
     def omega(self) -> Any:
         """Its rotation speed [rad/s], of a forced response at all its points, after a spin-up."""
-        answer = self.answer
-        return answer.spin_up.omega if isinstance(answer, SpinUpResponse) else answer.omega
+        return self.answer.omega
 
     @property
     def theory(self) -> Theory:
@@ -230,9 +231,8 @@ def sensitivity(answer: Answer, parameters: Iterable[str] | None = None) -> Sens
     of_blade = parameters_of(answer.blade, answer.theory)
     known = {name: found.parameters[name] for name in of_blade if name in found.parameters}
     known |= found.conditions
-    if parameters is None:  # each costs a spin-up a sweep over all its nodes
-        dear = isinstance(answer, SpinUpResponse)
-        parameters = [name for name, one in known.items() if not (dear and one.family)]
+    if parameters is None:
+        parameters = [n for n, one in known.items() if found.each_station or not one.family]
     several = parameters_by("parameters", parameters, known)
     return Sensitivity(
         answer=answer,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -65,6 +65,7 @@ class OneByOne:
     """
 
     given: tuple[Any, Sequence[Load]]
+    each_station: ClassVar[bool] = True
 
     def to(self, parameter: Parameter) -> FloatArray:
         """Return the derivatives of all numbers to a parameter."""

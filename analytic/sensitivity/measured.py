@@ -135,7 +135,29 @@ class MeasuredFrequency(Measured):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeasuredState(Measured):
+class _MeasuredOutput(Measured):
+    """One of the numbers of an answer under loads."""
+
+    output: str
+    loads: Sequence[Load] = ()
+    among: ClassVar[tuple[str, ...]]
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        object.__setattr__(self, "loads", loads_at_once(self.loads))
+        if self.output not in self.among:
+            raise ValueError(
+                f"output must be one of {', '.join(self.among)}, got {shown(self.output)}"
+            )
+
+    @property
+    def unit(self) -> str:
+        """Unit of the number."""
+        return OUTPUTS[self.output]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredState(_MeasuredOutput):
     """A number of the steady state under loads: a deflection, the tip's place, a load at the root.
 
     Parameters
@@ -155,26 +177,12 @@ class MeasuredState(Measured):
     m
     """
 
-    output: str
-    loads: Sequence[Load] = ()
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        object.__setattr__(self, "loads", loads_at_once(self.loads))
-        if self.output not in OUTPUTS:
-            raise ValueError(
-                f"output must be one of {', '.join(OUTPUTS)}, got {shown(self.output)}"
-            )
+    among: ClassVar[tuple[str, ...]] = tuple(OUTPUTS)
 
     @property
     def label(self) -> str:
         """The number and the speed."""
         return f"{self.output} at {self.omega:g} rad/s"
-
-    @property
-    def unit(self) -> str:
-        """Unit of the number."""
-        return OUTPUTS[self.output]
 
     @property
     def together(self) -> tuple[Any, ...]:
@@ -201,7 +209,7 @@ class MeasuredState(Measured):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeasuredMotion(Measured):
+class MeasuredMotion(_MeasuredOutput):
     """A number of a spin-up at a time: the tip's place or twist, or a load at the root.
 
     Its deviation is needed, for a motion goes through zero.
@@ -226,11 +234,10 @@ class MeasuredMotion(Measured):
     tip y at 1.5 s
     """
 
-    output: str
     time: float
     spin_up: SpeedChange | SteadyRotation
-    loads: Sequence[Load] = ()
     start: str = "straight"
+    among: ClassVar[tuple[str, ...]] = SteadyDerivatives.outputs
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -244,21 +251,11 @@ class MeasuredMotion(Measured):
             "loads": loads_in_time(self.loads),
         }.items():
             object.__setattr__(self, name, value)
-        if self.output not in SteadyDerivatives.outputs:
-            raise ValueError(
-                f"output must be one of {', '.join(SteadyDerivatives.outputs)}, got "
-                f"{shown(self.output)}"
-            )
 
     @property
     def label(self) -> str:
         """The number and the time."""
         return f"{self.output} at {self.time:.12g} s"
-
-    @property
-    def unit(self) -> str:
-        """Unit of the number."""
-        return OUTPUTS[self.output]
 
     @property
     def together(self) -> tuple[Any, ...]:

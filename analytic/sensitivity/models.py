@@ -1,7 +1,6 @@
 """Derivatives of a reduced model's numbers: they are closed forms, and differences exact to 1e-9.
 
-Of a blade whose functions are integrals along it, too; four models a parameter, each in
-milliseconds.
+Four or five models for each parameter, in milliseconds.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from ..load import Load
 from ..motion import SteadyRotation
 from ..reduced.model import ReducedModel
 from ..reduced.model_range import model_at
-from .conditions import conditions_of
+from .conditions import case_of, conditions_of
 from .energies import FINE, OneByOne, difference
 from .parameters import Parameter, parameters_of
 
@@ -52,7 +51,5 @@ class ModelDerivatives(OneByOne):
         return difference(parameter, self._anew, _CHANGE, FINE)
 
     def _anew(self, other: Any) -> FloatArray:
-        blade, given = (
-            (other, self.given) if isinstance(other, Blade) else (self._model.blade, other)
-        )
-        return np.array([*self.again(blade, *given).values()])
+        case = case_of(other, self._model.blade, self.given)
+        return np.array([*self.again(*case).values()])

@@ -27,7 +27,7 @@ from ..load import Load
 from ..methods.fourier import waves
 from ..methods.harmonic_balance import jacobian, projected
 from ..motion import SteadyRotation
-from .conditions import conditions_of
+from .conditions import case_of, conditions_of
 from .energies import OneByOne, difference
 from .frequencies import FrequencyDerivatives, in_space, modes_until
 from .frozen import model_of
@@ -83,7 +83,7 @@ class OrbitDerivatives(OneByOne):
 
 
 class ResponseDerivatives(OneByOne):
-    """Derivatives of the peaks of a forced response, where asked for and at maxima."""
+    """Derivatives of a forced response at the frequencies given, and of its maxima."""
 
     def __init__(self, response: ForcedResponse) -> None:
         at = _marked(response)
@@ -108,14 +108,14 @@ class ResponseDerivatives(OneByOne):
     def again(self, blade: Blade, motion: Any, loads: Sequence[Load]) -> dict[str, float]:
         """Return the peaks of another blade, at another speed, under another load, by name.
 
-        Where a maximum comes or goes, those at the frequencies asked for alone.
+        Where a maximum comes or goes, those at the frequencies given alone.
         """
         of, (load,) = self._response, loads
-        asked = of.frequency[_marked(of, "asked")]
+        given = of.frequency[_marked(of, "asked")]
         if load.varied == "speed":
-            other = forced_response(blade, asked, load, theory=of.theory)
+            other = forced_response(blade, given, load, theory=of.theory)
         else:
-            other = forced_response(blade, motion.omega, load, asked, theory=of.theory)
+            other = forced_response(blade, motion.omega, load, given, theory=of.theory)
         kinds = ("asked", "peak") if len(_marked(other)) == len(self.outputs) else ("asked",)
         names = np.array(self.outputs)[np.isin(_marked(of), _marked(of, *kinds))].tolist()
         return dict(zip(names, other.amplitude[_marked(other, *kinds)].tolist(), strict=True))
@@ -125,14 +125,14 @@ class ResponseDerivatives(OneByOne):
         response, orbit = self._response, self._orbits[k]
         driven, units = _system(orbit.system, response, other)
         system: Any = driven
-        (load,) = (response.load,) if isinstance(other, Blade) else other[1]
+        *_, (load,) = case_of(other, response.blade, self.given)
         unit = response.blade.frequency_scale / units.frequency_scale
         harmonics, height = _met(orbit, replace(system, drive=unit_load(units, load)), unit)
         return np.asarray(height - harmonics @ self._rows[k])
 
 
 def _marked(response: ForcedResponse, *kinds: str) -> list[int]:
-    """Return the points that were asked for, and the greatest and least, or some of them."""
+    """Return the points at frequencies given and of maxima, or some of these kinds."""
     return [k for k, mark in enumerate(response.marks) if mark in (kinds or ("asked", "peak"))]
 
 

@@ -7,20 +7,22 @@ the residual's change at states as they are: one step after the other, for many 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from ..arrays import FloatArray, few_at_once
 from ..blade import Blade
+from ..exact.continuum.state import Driven
 from ..exact.driven.response import SpinUpResponse
 from ..exact.driven.spin_up import spin_up_response
 from ..exact.driven.start import started
-from ..exact.driven.transient import Steps, drive
+from ..exact.driven.steps import Steps
+from ..exact.driven.transient import drive
 from ..lazily import linalg, optimize
 from ..loads import Load, rippled
-from .conditions import conditions_of
+from .conditions import case_of, conditions_of
 from .energies import difference
 from .frozen import model_of
 from .parameters import Parameter, parameters_of
@@ -40,9 +42,14 @@ class _Case(NamedTuple):
     motion: Any
     loads: Sequence[Load]
 
+    def driven(self) -> Callable[[FloatArray], Driven]:
+        """Return what drives it at times [s]."""
+        rotation = rippled(self.motion, self.loads)
+        return drive(self.unit, rotation, self.loads, self.model)
+
     def of_states(self, what: Any, time: FloatArray, states: FloatArray) -> FloatArray:
         """Return a function of q, q̇, q̈ and their drive at times [s], in states in SI units."""
-        driven_at = drive(self.unit, rippled(self.motion, self.loads), self.loads, self.model)
+        driven_at = self.driven()
         powers = self.unit.frequency_scale ** np.arange(3.0)[:, None, None]
         return np.concatenate([
             what(*(states[:, few] / powers), driven_at(time[few])) for few in few_at_once(time.size)
@@ -62,12 +69,11 @@ class _Case(NamedTuple):
 class SpinUpDerivatives:
     """Derivatives of tip, twist, and force and moment at the root: largest, and over time."""
 
+    each_station: ClassVar[bool] = False  # each number costs a sweep over all nodes
+
     def __init__(self, response: SpinUpResponse) -> None:
         self._response, self._steps = response, response.steps_taken
-        self._method = self._steps.method
-        self._nodes = self._steps.ends[:-1, None] + np.outer(
-            np.diff(self._steps.ends), self._method.nodes
-        )
+        self._nodes = self._steps.nodes
         self._case = _Case(response.model, response.blade, response.spin_up, response.loads)
         self.parameters = parameters_of(response.blade, response.theory)
         self.given: tuple[Any, Sequence[Load]] = response.spin_up, response.loads
@@ -158,13 +164,11 @@ class SpinUpDerivatives:
         states, at = self._states(nodes), self._states(self._time)
 
         def values(other: Any) -> FloatArray:
-            if parameter.name in self.conditions:
-                case = _Case(response.model, response.blade, *other)
-            else:
-                model, unit = model_of(
-                    response.model, response.blade, response.theory, other, response.loads
-                )
-                case = self._case._replace(model=model, unit=unit)
+            blade, motion, acting = case_of(other, response.blade, self.given)
+            model, unit = response.model, response.blade
+            if blade is not response.blade:
+                model, unit = model_of(model, unit, response.theory, blade, response.loads)
+            case = _Case(model, unit, motion, acting)
             several = self._start(case), case.residuals(nodes, states), case.numbers(self._time, at)
             return np.concatenate([one.ravel() for one in several])
 
@@ -190,8 +194,8 @@ class SpinUpDerivatives:
 
         `start` (2, n, parameters), `forces` (nodes, n, parameters).
         """
-        steps, case, method = self._steps, self._case, self._method
-        driven_at = drive(case.unit, rippled(case.motion, case.loads), case.loads, case.model)
+        steps, case, method = self._steps, self._case, self._steps.method
+        driven_at = case.driven()
         forces = forces.reshape(*self._nodes.shape, *forces.shape[1:])
         passed, accelerations = [start.reshape(2, -1)], []
         none = np.zeros((method.nodes.size, start[0].size))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,8 @@ from ...motion import SpeedChange, SteadyRotation
 from ...theory import Theory
 from ..continuum.state import BladeState, SectionLoads, in_newtons, state_of
 from .start import Start
-from .transient import Steps, drive
+from .steps import Steps
+from .transient import drive
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +74,17 @@ class SpinUpResponse:
     steps: int
     functions: int
     model: Any = field(repr=False)
-    _state: FloatArray = field(repr=False)
     steps_taken: Steps = field(repr=False)
+
+    @cached_property
+    def _state(self) -> FloatArray:
+        """Coordinates, rates and accelerations at the times, (3, times, n)."""
+        return self.steps_taken.at(self.time)
+
+    @property
+    def omega(self) -> float:
+        """Speed after the ramp [rad/s]."""
+        return self.spin_up.omega
 
     def section_loads(self, x: ArrayLike) -> SectionLoads:
         """Return the sections at `x` [m], and force and moment in them, over time."""

@@ -32,7 +32,7 @@ _DIGITS = (3.0, 8.0)  # of the tolerance, by which the first solution is chosen
 _A_DIGIT, _MORE_FUNCTIONS = 2, 4  # functions for θ, and from one refinement to the next
 _MANY_CELLS = 16
 _INSTANTS = 64  # of a motion, whose forces make functions of a table
-_LEAST = 0.01  # of the tolerance, by which steps are chosen, that is ever told as an error
+_LEAST = 0.01  # of the tolerance, by which steps are chosen, that the error is at least
 _LEFT = 0.1  # of the tolerance, what functions leave of strains
 _MODES = 3  # by which functions of a table are chosen
 _STEPS = (0.1, 0.075)  # up to 6 digits and at 8, in units of 1/√(EI/mL³), at most ten times 1/w̄
@@ -147,7 +147,7 @@ def spin_up_response(
             continue
         if within is not None:
             if not (level or table or by_answers):
-                needed = model.needed(finer.state[0], _TAIL * tolerance)
+                needed = model.needed(finer.steps.at(time)[0], _TAIL * tolerance)
                 if needed > model.bending:
                     functions = needed
                     continue
@@ -181,7 +181,6 @@ def spin_up_response(
         steps=finer.steps.lengths.size,
         functions=model.bending,
         model=model,
-        _state=finer.state,
         steps_taken=finer.steps,
     )
 

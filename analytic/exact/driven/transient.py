@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import pairwise
@@ -19,17 +20,20 @@ from ...motion import Rotation
 from ..continuum.loading import pushes, unit_load
 from ..continuum.rotation import Model
 from ..continuum.state import Driven
-from .step_control import INSTANTS, StepControl
+from .steps import STAGES, Steps
 
-_STAGES = 8
 _MOST_PIECES = 100_000  # of the motion, where Newton's method fails on longer ones
 
 _FEW = [0, 3, 5, 7]  # nodes of a step, at which dear tangents are taken
 _CREDIT, _MOST_CREDIT = 3, 10  # failures, before a tangent of the steps before is no longer tried
 _EXACT, _NEWTON = 1e-13, 1e-3  # of Newton's method: at the least, and of a step's tolerance
+_MANY = 4  # of its steps, after which the next step in time is not longer
 
 _FAR = 1.5  # of a step to the one before, from which on its series cannot be taken whole
 _FIRST = 0.02  # step [√(mL⁴/EI)] after every corner
+_LONGER, _SHORTER, _SAFETY = 2.0, 0.3, 0.9
+_RATES = 10.0  # of the tolerance of places, for rates over the largest
+_INSTANTS, _SMALL = 65, 1e-6
 
 
 def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
@@ -38,51 +42,10 @@ def grid_of(corners: list[float], counts: list[int]) -> FloatArray:
     return np.concatenate(([0.0], *(np.linspace(a, b, n + 1)[1:] for (a, b), n in parts)))
 
 
-class Steps(NamedTuple):
-    """The steps of a motion: their ends from the start on [s], and polynomials of accelerations.
-
-    Coordinates and rates (2, ends, n) without units are those at the ends, and `accelerations`
-    (steps, stages, n) at the nodes of Radau's method.
-    """
-
-    ends: FloatArray
-    passed: FloatArray
-    accelerations: FloatArray
-    per_second: float
-
-    @property
-    def method(self) -> Collocation:
-        """The collocation of the steps."""
-        return radau(self.accelerations.shape[1])
-
-    @property
-    def lengths(self) -> FloatArray:
-        """Lengths without units, (steps,)."""
-        return np.asarray(self.per_second * np.diff(self.ends))
-
-    def at(self, time: FloatArray) -> FloatArray:
-        """Return coordinates, rates and accelerations at times [s], (3, times, n)."""
-        method, lengths = self.method, self.lengths
-        q, q_dot = self.passed[:, 0]
-        state = np.repeat(np.stack((q, q_dot, 0.0 * q))[:, None], time.size, axis=1)
-        of = np.searchsorted(self.ends[1:], time)  # the first step has its start as well
-        for k in np.unique(of[of < lengths.size]):
-            h, inside, acceleration = lengths[k], of == k, self.accelerations[k]
-            at = (time[inside] - self.ends[k]) / (self.ends[k + 1] - self.ends[k])
-            onto, (q, q_dot) = h * method.integral(at), self.passed[:, k]
-            state[:, inside] = (
-                q + h * (at[:, None] * q_dot + onto @ method.velocity @ acceleration),
-                q_dot + onto @ acceleration,
-                method.values(at) @ acceleration,
-            )
-        return state
-
-
 class BladeMotion(NamedTuple):
     """Deflection and rate, twist, places of the tip (times, 3) and points (times, points, 3).
 
-    Without units, in the frame of the clamp. `state` has coordinates, rates and accelerations,
-    (3, times, n).
+    Without units, in the frame of the clamp.
     """
 
     q: FloatArray
@@ -90,7 +53,6 @@ class BladeMotion(NamedTuple):
     twist: FloatArray
     tip: FloatArray
     axis: FloatArray
-    state: FloatArray
     steps: Steps
 
 
@@ -130,15 +92,15 @@ def integrated(
     largest q, the grid is cut into steps that follow it. It starts in the state `q` (n,) at the
     `rates`.
     """
-    method, per_second = radau(_STAGES), blade.frequency_scale
+    method, per_second = radau(STAGES), blade.frequency_scale
     driven_at = drive(blade, rotation, loads, model)
-    q_dot, acceleration = rates + np.zeros(model.size), np.zeros((_STAGES, model.size))
+    q_dot, acceleration = rates + np.zeros(model.size), np.zeros((STAGES, model.size))
     solver, previous = _Solver(model, method), 0.0
     ends, passed, accelerations = [float(grid[0])], [(q, q_dot)], list[FloatArray]()
     control = None
     if tolerance is not None:
-        forces = driven_at(np.linspace(grid[0], grid[-1], INSTANTS))
-        control = StepControl(tolerance, _FIRST / per_second, model, q, forces)
+        forces = driven_at(np.linspace(grid[0], grid[-1], _INSTANTS))
+        control = _Control(tolerance, _FIRST / per_second, model, q, forces)
     ahead = list(pairwise(grid.tolist()))[::-1]
     while ahead:
         begin, end = ahead.pop()
@@ -173,7 +135,7 @@ def integrated(
         accelerations.append(acceleration)
     steps = Steps(
         np.array(ends), np.swapaxes(passed, 0, 1),
-        np.reshape(accelerations, (-1, _STAGES, q.size)), per_second,
+        np.reshape(accelerations, (-1, STAGES, q.size)), per_second,
     )  # fmt: skip
     state, at = steps.at(time), np.append(points, 1.0)
     parts = [
@@ -186,9 +148,7 @@ def integrated(
         for q, q_dot, _ in (state[:, few] for few in few_at_once(time.size))
     ]
     deflection, rate, twist, places = map(np.concatenate, zip(*parts, strict=True))
-    return BladeMotion(
-        deflection, rate, twist, places[:, -1], places[:, :-1], state, steps
-    )  # fmt: skip
+    return BladeMotion(deflection, rate, twist, places[:, -1], places[:, :-1], steps)
 
 
 class _Solver:
@@ -241,3 +201,64 @@ class _Solver:
         known = self.model.tangent(*(part[_FEW] for part in state), few)
         onto = self.method.among(_FEW)
         return Tangent(residual(*state), *(np.tensordot(onto, one, 1) for one in known[1:]))
+
+
+class _Control:
+    """Lengths of steps by which lag, flap, place along and twist of the tip are within a tolerance.
+
+    The error of a step's polynomial is taken to be its last term, and the tip to move with the
+    coordinates as it does at the start.
+    """
+
+    def __init__(
+        self, tolerance: float, first: float, model: Any, start: FloatArray, by: Driven
+    ) -> None:
+        self.tolerance, self.first, self.longest, self.most = tolerance, first, first, _LONGER
+        change = _SMALL * np.eye(start.size)
+        places, turn = (of(start + change) - of(start[None]) for of in (model.tip, model.tip_turn))
+        self.seen = np.column_stack((places[:, [1, 2, 0]], turn)) / _SMALL
+        # The elastic energy is ½ q·q: forces on the blade at its start are what bends it.
+        still = np.zeros((_INSTANTS, start.size))
+        self.start, self.size = start, 0.0
+        moved = model.residual(start + still, still, still, by)
+        self.size = max(self._moved(moved), self._moved(start))
+        self.speed = self.size
+
+    def _moved(self, change: FloatArray) -> float:
+        return float(np.abs(change @ self.seen[:, :2]).max())
+
+    @property
+    def within(self) -> float:
+        """The tolerance times the largest lag or flap so far, or to be expected."""
+        return self.tolerance * self.size
+
+    def end(self, begin: float, end: float, *, corner: bool) -> float:
+        """Return the end [s] of the next step of a stretch."""
+        if corner:
+            self.longest = min(self.longest, self.first)
+        return begin + (end - begin) / max(1, math.ceil((end - begin) / self.longest))
+
+    def passes(
+        self,
+        length: float,
+        h: float,
+        state: tuple[FloatArray, FloatArray, FloatArray],
+        found: Root,
+        method: Collocation,
+    ) -> bool:
+        """Return whether a step passes, to a state at its nodes; set the length of the next."""
+        q, q_dot, q_ddot = state
+        self.size = max(self.size, self._moved(q - self.start))
+        self.speed = max(self.speed, self._moved(q_dot))
+        count, last = method.nodes.size, float(np.abs(method.last_term @ q_ddot @ self.seen).max())
+        # Once integrated it is less by 2(2s - 1), twice by the square of this at the ends.
+        times = h / (2.0 * (2 * count - 1))
+        parts = times * last, times**2 * math.sqrt(2 * count - 1) * last
+        sizes = _RATES * self.tolerance * self.speed, self.tolerance * self.size
+        over = max(part / size if part else 0.0 for part, size in zip(parts, sizes, strict=True))
+        longer = _LONGER
+        if over > 0.0:
+            longer = _SAFETY * over ** (-1.0 / (count + 1))
+        most = self.most if found.steps <= _MANY else 1.0
+        self.longest, self.most = length * min(max(longer, _SHORTER), most), _LONGER
+        return longer >= _SAFETY**2
