@@ -82,7 +82,7 @@ def exact(functions: str, step: str = "1.25e-3", case: str = "") -> None:
             raise SystemExit("Newton's method fails: take a shorter step")
         rows.append(np.column_stack((found.tip, found.twist))[bool(rows) :])
         fewer, model = model, space_continuum(STRIP, THEORY, int(functions))
-        q, rates = on_more(found.state[:2, -1], fewer.families, model.families)
+        q, rates = on_more(found.steps.passed[:, -1], fewer.families, model.families)
     name = "_".join(filter(None, ("exact", case, functions)))
     table = np.concatenate(rows)
     write(name, times, table[:, :3], table[:, 3])
