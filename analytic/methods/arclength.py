@@ -9,23 +9,26 @@ sign where another branch crosses (Keller 1977; Govaerts, 2000, Secs. 4 and 8).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import count
 from typing import Any, Protocol
 
 import numpy as np
 
 from ..arrays import FloatArray
-from ..lazily import linalg, optimize
+from ..lazily import optimize
 from .newton import LARGE, Newton, NoOrbitError, Vector, by_products, factored, length, solved
 
 # Of the unknowns, which are of order 1.
 _NEWTON = Newton(converged=1e-12, stagnates=1e-9, slow=0.2, steps=15, largest=10.0)
+_OF_MANY = replace(_NEWTON, patient=True)  # whose tangents are dear
 _EASY, _HARD = 7, 11  # Newton steps that lengthen and shorten the next one
 _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
 _LOCATED = 1e-9  # of the way between two points; what is stationary there is right to the square
 _TANGENT = 1e-6  # of a tangent's length, that products may leave, twice
+_DIFFERENCE = 1e-5  # of the unknowns
 _ENOUGH, _SMALL = 7, 0.1  # values that tell whether a determinant gets small, over both ends
 _SINGULAR = 1e-3  # least singular value over the next at a branch point
 
@@ -36,19 +39,16 @@ class Curve(Protocol):
     def residual(self, z: FloatArray) -> FloatArray:
         """Return the N residuals at the N + 1 unknowns, the parameter last."""
 
-    def jacobian(self, z: FloatArray) -> FloatArray:
-        """Return their derivatives, (N, N + 1)."""
-
-    def products(self, z: FloatArray) -> Vector:
-        """Return the function that multiplies them with a vector (N + 1,)."""
+    def jacobian(self, z: FloatArray, *, coarse: bool = False) -> FloatArray:
+        """Return their derivatives, (N, N + 1); of many unknowns they may be `coarse`."""
 
 
 @dataclass(frozen=True, eq=False)
 class Point:
     """A point of a curve.
 
-    Its matrix is the equations' Jacobian with a vector along the tangent as its last row. The
-    factors are those of the matrix here or, of many unknowns, at a point before.
+    Its matrix is the equations' Jacobian with a vector along the tangent as its last row. Of many
+    unknowns the factors are those of a coarse one.
     """
 
     z: FloatArray  # (N + 1,)
@@ -56,19 +56,30 @@ class Point:
     steps: int  # of Newton's method
     factors: Any
     matrix: Callable[[], FloatArray]
-    factors_here: Any  # factors of the matrix here, if they were made
+
+    @cached_property
+    def near_determinant(self) -> float:
+        """Determinant of the matrix that the factors are of.
+
+        In size what a right side of unit length is over its solution: zero where a branch crosses,
+        where the sign changes, and smooth.
+        """
+        return _determinant(self.factors)
 
     @cached_property
     def determinant(self) -> float:
-        """Determinant of the matrix in sign, which changes where a branch crosses.
+        """The same of the matrix itself."""
+        if self.z.size <= LARGE:
+            return self.near_determinant
+        return _determinant(factored(self.matrix(), single=False))
 
-        In size what a right side of unit length is over its solution: zero there, and smooth.
-        """
-        lu, pivots = self.factors_here or linalg.lu_factor(self.matrix(), check_finite=False)
-        swaps = np.count_nonzero(pivots != np.arange(pivots.size))
-        sign = (-1.0) ** swaps * np.prod(np.sign(np.diag(lu)))
-        side = np.random.default_rng(0).normal(size=self.z.size)
-        return float(sign * length(side) / length(solved((lu, pivots), side)))
+
+def _determinant(factors: Any) -> float:
+    lu, pivots = factors
+    swaps = np.count_nonzero(pivots != np.arange(pivots.size))
+    sign = (-1.0) ** swaps * np.prod(np.sign(np.diag(lu)))
+    side = np.random.default_rng(0).normal(size=pivots.size)
+    return float(sign * length(side) / length(solved(factors, side)))
 
 
 def corrected(
@@ -79,37 +90,40 @@ def corrected(
     def residual(z: FloatArray) -> FloatArray:
         return np.append(curve.residual(z), across @ (z - guess))
 
-    def matrix(z: FloatArray) -> FloatArray:
-        return np.vstack((curve.jacobian(z), across))
+    many, made = guess.size > LARGE, count()
 
-    def products(z: FloatArray) -> Vector:
-        product = curve.products(z)
-        return lambda change: np.append(product(change), across @ change)
+    def matrix(z: FloatArray, **kind: bool) -> FloatArray:
+        return np.vstack((curve.jacobian(z, **kind), across))
 
-    root = _NEWTON.root(
-        guess,
-        residual,
-        lambda z: (factored(matrix(z)), residual(z)),
-        factors=factors,
-        products=products,
-    )
+    def near(z: FloatArray) -> Any:
+        # Where coarse ones contract slowly exact ones follow.
+        return factored(matrix(z, coarse=True) if many and next(made) == 0 else matrix(z))
+
+    newton = _OF_MANY if many else _NEWTON
+    root = newton.root(guess, residual, lambda z: (near(z), residual(z)), factors=factors)
     if root is None:
         raise NoOrbitError("Newton's method does not converge")
     # The last row of the matrix is `across`; times the length it is the tangent's, in sign.
-    z, last, here = root.z, np.eye(1, guess.size, guess.size - 1)[0], None
-    if z.size > LARGE:
-        factors, product = root.factors, products(z)
-        tangent = _by_products(product, factors, last)
-        if tangent is None:
-            factors = factored(matrix(z))
-            tangent = _by_products(product, factors, last)
-        if tangent is None:
-            raise NoOrbitError("the curve's direction is not found")
-    else:
-        factors = here = factored(matrix(z))
-        tangent = solved(factors, last)
+    z, last = root.z, np.eye(1, guess.size, guess.size - 1)[0]
+    # Of many unknowns factors of this iteration do.
+    factors = near(z) if not many or root.factors is factors else root.factors
+    tangent = _by_products(_differences(residual, z), factors, last) if many else None
+    if tangent is None:
+        tangent = solved(factored(matrix(z)) if many else factors, last)
     tangent /= np.linalg.norm(tangent)
-    return Point(z, tangent, root.steps, factors, partial(matrix, z), here)
+    steps = root.steps // 2 if many else root.steps  # by a coarse tangent they are shorter
+    return Point(z, tangent, steps, factors, partial(matrix, z))
+
+
+def _differences(function: Vector, z: FloatArray) -> Vector:
+    """Return the function that multiplies derivatives at `z` with a vector."""
+
+    def product(change: FloatArray) -> FloatArray:
+        step = _DIFFERENCE / length(change)
+        ahead, behind = (function(z + by * change) for by in (step, -step))
+        return (ahead - behind) / (2.0 * step)
+
+    return product
 
 
 def _by_products(product: Vector, factors: Any, vector: FloatArray) -> FloatArray | None:
@@ -166,6 +180,9 @@ def crossing(curve: Curve, start: Point, end: Point) -> FloatArray | None:
     There the equations' Jacobian has two null vectors. The determinant changes its sign through
     infinity too, where a narrow excursion of the curve is stepped over.
     """
+    near = np.array([start.near_determinant, end.near_determinant])
+    if np.prod(near) > 0.0 and np.ptp(np.log(np.abs(near))) < -np.log(_SMALL):
+        return None
     determinants = list[float]()
 
     def singular(point: Point) -> float:

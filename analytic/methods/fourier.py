@@ -37,6 +37,7 @@ class Period:
     """
 
     def __init__(self, harmonics: int, half: bool, count: int) -> None:
+        self._resolved = count - 1 if half else count // 2 - 1
         self.spacing = (1.0 if half else 2.0) * np.pi / count
         self.phase = np.asarray(self.spacing * (np.arange(count) + 0.5), dtype=np.float64)
         self.waves = waves(self.phase, harmonics)  # (3, count, 2H + 1)
@@ -46,16 +47,23 @@ class Period:
 
     @cached_property
     def products(self) -> FloatArray:
-        """Means times cos dφ and sin dφ, (2, 3H + 1, count), d = -H to 2H, of all products."""
+        """Means times cos dφ and sin dφ, (2, 3H + 1, count), d = -H to 2H, of all products.
+
+        Zero for waves that so few phases do not resolve.
+        """
         H, count = len(self.onto) // 2, len(self.phase)
-        turns = np.multiply.outer(np.arange(-H, 2 * H + 1.0), self.phase)
-        return np.stack((np.cos(turns), np.sin(turns))) / count
+        orders = np.arange(-H, 2 * H + 1.0)
+        turns = np.multiply.outer(orders, self.phase)
+        kept = (np.abs(orders) <= self._resolved)[:, None]
+        return np.asarray(np.stack((np.cos(turns), np.sin(turns))) * kept / count)
 
 
 @lru_cache(maxsize=128)
-def period(harmonics: int, half: bool, fine: bool = False) -> Period:
-    """Return the phases that so many harmonics take, or finer ones for their residual."""
+def period(harmonics: int, half: bool, fine: bool = False, coarse: bool = False) -> Period:
+    """Return the phases that so many harmonics take, finer ones for their residual, or few."""
     count = 4 * harmonics + 8 if fine else 2 * harmonics + 2
+    if coarse:
+        count = harmonics // 2 + 1
     return Period(harmonics, half, count if half else 2 * count)
 
 

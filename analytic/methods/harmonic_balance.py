@@ -15,9 +15,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .fourier import Period, packed, unpacked
-from .newton import Newton, NoOrbitError, Vector, factored, length, solved
+from .newton import Newton, NoOrbitError, factored, length, solved
 from .orbit import Orbit, S
-from .system import Tangent
 
 # Of the odd coordinates and of Ω; in the energies they count a 1000 times. Small orbits may
 # stagnate by the round-off of the mean.
@@ -27,7 +26,7 @@ _NEWTON = Newton(
 _SAME_PEAK = 1e-8  # relative distance of peaks that are one
 _PEAKS = 3  # tried, where another becomes the highest
 _FINER_STEPS = 2  # after which a tenth of the change is left out, or less
-_DIFFERENCE = 1e-6  # of a drive's frequency, for derivatives to it
+_DIFFERENCE = 1e-3  # of a frequency, for derivatives to it
 
 
 def projected(orbit: Orbit[Any]) -> FloatArray:
@@ -37,13 +36,14 @@ def projected(orbit: Orbit[Any]) -> FloatArray:
     return packed(at.onto @ defect, orbit.parts)
 
 
-def jacobian(orbit: Orbit[Any]) -> FloatArray:
+def jacobian(orbit: Orbit[Any], *, coarse: bool = False) -> FloatArray:
     """Return the derivatives of the residual's harmonics with respect to q's and to Ω.
 
-    The last row is left to the amplitude, or to whatever picks one orbit of the branch.
+    The last row is left to the amplitude, or to whatever picks one orbit of the branch. By half of
+    the tangent's harmonics, `coarse`, they cost a quarter and are good to about 1e-3.
     """
-    at = orbit.period()
-    tangent, by_frequency = _linearized(orbit)
+    at = orbit.period(coarse=coarse)
+    tangent, by_frequency = orbit.tangent(at.phase), _by_frequency(orbit)
     # A change exp(ikφ) of q changes the residual by the sum of these times 1, ik, k².
     powers = np.stack(
         (tangent.stiffness, orbit.frequency * tangent.damping, -(orbit.frequency**2) * tangent.mass)
@@ -87,43 +87,13 @@ def _waves_onto_waves(
         transposed[place * by : (place + 1) * by].reshape(by, count, of)[...] = onto.swapaxes(0, 1)
 
 
-def products(orbit: Orbit[Any]) -> Vector:
-    """Return the function that multiplies the same derivatives with a change of the unknowns."""
-    at, (tangent, by_frequency) = orbit.period(), _linearized(orbit)
-
-    def product(change: FloatArray) -> FloatArray:
-        moved = unpacked(change[:-1], orbit.parts, orbit.coefficients.shape)
-        q, q_dot, q_ddot = replace(orbit, coefficients=moved).summed(at.waves)
-        work = (
-            tangent.stiffness @ q[..., None]
-            + tangent.damping @ q_dot[..., None]
-            + tangent.mass @ q_ddot[..., None]
-        )[..., 0]
-        return np.asarray(packed(at.onto @ work, orbit.parts) + change[-1] * by_frequency)
-
-    return product
-
-
-def _linearized(orbit: Orbit[Any]) -> tuple[Tangent, FloatArray]:
-    """Return the tangent at the phases, and the derivatives of the residual's harmonics to Ω."""
-    at = orbit.period()
-    state = orbit.summed(at.waves)
-    tangent = orbit.system.tangent(*state, *orbit.drive(at.phase))
-    return tangent, packed(at.onto @ _by_frequency(orbit, tangent, *state), orbit.parts)
-
-
-def _by_frequency(
-    orbit: Orbit[Any], tangent: Tangent, q: FloatArray, q_dot: FloatArray, q_ddot: FloatArray
-) -> FloatArray:
-    """Return the derivative of the residual at the phases to Ω, by the rates and by the drive."""
-    by_rates = (tangent.damping @ q_dot[..., None] + 2.0 * tangent.mass @ q_ddot[..., None])[..., 0]
-    if not orbit.system.driven:
-        return np.asarray(by_rates / orbit.frequency)
-    h, phase = _DIFFERENCE * orbit.frequency, orbit.period().phase
+def _by_frequency(orbit: Orbit[Any]) -> FloatArray:
+    """Return the derivatives of the residual's harmonics to Ω: they are of second degree in it."""
+    step = _DIFFERENCE * orbit.frequency
     ahead, behind = (
-        orbit.system.residual(q, q_dot, q_ddot, phase, orbit.frequency + step) for step in (h, -h)
+        projected(replace(orbit, frequency=orbit.frequency + by)) for by in (step, -step)
     )
-    return np.asarray(by_rates / orbit.frequency + (ahead - behind) / (2.0 * h))
+    return (ahead - behind) / (2.0 * step)
 
 
 class LastTangent:

@@ -18,7 +18,6 @@ from ..lazily import linalg, sparse
 Vector = Callable[[FloatArray], FloatArray]
 
 LARGE = 1000  # unknowns, from which on a step by products costs less than new factors
-_NEAR = 1e-2  # size of a change after which the tangent at hand is good for that
 _PRODUCTS, _LEFT = 40, 1e-4  # at most, and what they leave of a step
 
 
@@ -56,6 +55,7 @@ class Newton:
     tangents: int = 100  # at most
     stagnates: float = 0.0  # size of changes that round-off no longer lets contract
     largest: float = np.inf  # size of a change that leads nowhere
+    patient: bool = False  # judge a new tangent from its second step on
     broyden: bool = False  # improve the steps of an old tangent by what those before tell of it
 
     def root(
@@ -67,7 +67,6 @@ class Newton:
         size: Callable[[FloatArray, FloatArray], float] = lambda z, change: length(change),
         factors: Any = None,
         solve: Callable[[Any, FloatArray], FloatArray] | None = None,
-        products: Callable[[FloatArray], Vector] | None = None,
     ) -> Root | None:
         """Return the root near `z`, None if none is found.
 
@@ -84,33 +83,25 @@ class Newton:
             Factors of a tangent near by, tried first.
         solve : callable, optional
             Of factors and a residual: the change. By default `solved`, of what `factored` returns.
-        products : callable, optional
-            Of z: the function that multiplies the tangent there with a vector (N,).
         """
         last, exact, tangents, steps = np.inf, False, 0, list[FloatArray]()
         anew = factors is None
-        products = products if z.size > LARGE else None
         for count in range(1, self.steps + 1):
-            change = None
             if anew:
                 tangents += 1
                 if tangents > self.tangents:
                     return None
                 exact, steps = True, []
-                if factors is not None and products is not None and last < _NEAR:
-                    defect = residual(z)
-                    change = by_products(products(z), factors, defect)
-                if change is None:
-                    (factors, defect), anew = linearized(z), False
+                last = np.inf if self.patient else last
+                (factors, defect), anew = linearized(z), False
             else:
                 defect = residual(z)
             if not np.all(np.isfinite(defect)):
                 return None
-            if change is None:
-                change = (solve or solved)(factors, defect)
-                if self.broyden:
-                    change = _improved(change, steps)
-                    steps.append(change)
+            change = (solve or solved)(factors, defect)
+            if self.broyden:
+                change = _improved(change, steps)
+                steps.append(change)
             z = z - change
             now = size(z, change)
             contraction = now / last if np.isfinite(last) else 1.0

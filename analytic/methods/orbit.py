@@ -49,9 +49,9 @@ class Orbit(Generic[S]):
         pinned = self.system.pinned if free else None
         return parts_of(self.system.odd, self.system.size, self.harmonics, pinned)
 
-    def period(self, fine: bool = False) -> Period:
+    def period(self, fine: bool = False, coarse: bool = False) -> Period:
         """Return the period, or the half of it that is all of it."""
-        return period(self.harmonics, self.system.odd is not None, fine)
+        return period(self.harmonics, self.system.odd is not None, fine, coarse)
 
     @property
     def sizes(self) -> FloatArray:

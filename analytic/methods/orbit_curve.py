@@ -18,8 +18,8 @@ from ..arrays import FloatArray
 from .arclength import Point, advanced, corrected, crossing, located
 from .continuation import Care, refined
 from .fourier import packed, unpacked
-from .harmonic_balance import jacobian, products, projected
-from .newton import NoOrbitError, Vector
+from .harmonic_balance import jacobian, projected
+from .newton import NoOrbitError
 from .orbit import Orbit, S
 
 Mark = Literal["", "asked", "fold", "peak", "branch point"]
@@ -66,16 +66,11 @@ class OrbitCurve(Generic[S]):
         """Return the projected residual, as many as there are coefficients."""
         return projected(self._raw(z))
 
-    def jacobian(self, z: FloatArray) -> FloatArray:
-        """Return its derivatives to all unknowns."""
-        matrix = jacobian(self._raw(z))[:-1]
+    def jacobian(self, z: FloatArray, *, coarse: bool = False) -> FloatArray:
+        """Return its derivatives to all unknowns; `coarse` ones are good to about 1e-3."""
+        matrix = jacobian(self._raw(z), coarse=coarse)[:-1]
         matrix[:, -1] *= self.scale
         return matrix
-
-    def products(self, z: FloatArray) -> Vector:
-        """Return the function that multiplies them with a vector."""
-        product, scale = products(self._raw(z)), np.append(np.ones(z.size - 1), self.scale)
-        return lambda change: product(scale * change)
 
 
 @dataclass(frozen=True, eq=False)
