@@ -309,7 +309,11 @@ def _curve(response: ForcedResponse) -> xr.Dataset:
     inputs = response_inputs(
         response.blade, response.load, None if weight else float(response.omega[0])
     )
-    quality = {"residual": float(response.residual.max()), "versions": json.dumps(versions())}
+    quality = {
+        "residual": float(response.residual.max()),
+        "error": response.error,
+        "versions": json.dumps(versions()),
+    }
     return dataset(variables, {}, {**inputs, **theory_attributes(response.theory), **quality})
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Generic, NamedTuple
 
@@ -200,12 +200,14 @@ def _through(orbits: Sequence[Orbit[S]], amplitude: float) -> Orbit[S]:
     )
 
 
-def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
+def refined(
+    orbit: Orbit[S], care: Care = THOROUGH, enough: Callable[[bool], bool] | None = None
+) -> Orbit[S] | None:
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
     Harmonics until the invariant is constant or, under a drive, until they leave a small residual;
-    functions until the residual on half as many again is small. Raises NoOrbitError where that
-    takes more than are taken.
+    functions until the residual on half as many again is small, or they are `enough`, which is told
+    whether there are more. Raises NoOrbitError where that takes more than are taken.
     """
     if orbit.system.driven:
         lacks, left = orbit.truncation > _TRUNCATED, f"a residual of {orbit.truncation:.1e}"
@@ -216,7 +218,11 @@ def refined(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S] | None:
     last = orbit.harmonics >= care.harmonics or _too_large(larger, care)
     nearly = not orbit.system.driven and orbit.invariant_drift < _LARGE_DRIFT
     if not lacks or (last and nearly):
-        return None if meets_the_equations(orbit, care) else _on_more_functions(orbit, care)
+        if enough is None:
+            suffice = meets_the_equations(orbit, care)
+        else:
+            suffice = enough(not _too_many(orbit.on(orbit.finer), care))
+        return None if suffice else _on_more_functions(orbit, care)
     if last:
         raise NoOrbitError(f"{orbit.harmonics} harmonics leave {left}")
     return larger
@@ -229,7 +235,7 @@ def _on_more_harmonics(orbit: Orbit[S], most: int) -> Orbit[S]:
 
 def _on_more_functions(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S]:
     larger = orbit.on(orbit.finer)
-    if larger.system.functions > min(care.functions, MOST_FUNCTIONS) or _too_large(larger, care):
+    if _too_many(larger, care):
         raise NoOrbitError(
             f"{orbit.system.functions} functions meet the equations of motion to "
             f"{orbit.residual:.1e} only, not to {care.tail * RESIDUAL_BOUND:g}",
@@ -237,6 +243,11 @@ def _on_more_functions(orbit: Orbit[S], care: Care = THOROUGH) -> Orbit[S]:
             "or rotate slower",
         )
     return larger
+
+
+def _too_many(larger: Orbit[Any], care: Care) -> bool:
+    most = min(care.functions, MOST_FUNCTIONS)
+    return larger.system.functions > most or _too_large(larger, care)
 
 
 def _too_large(orbit: Orbit[Any], care: Care) -> bool:

@@ -8,6 +8,7 @@ beam the gauge is the tip's deflection, and the Coriolis force brings in even ha
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -166,30 +167,45 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
 def frequency_change(orbit: Orbit[Any], tangent: LastTangent | None = None) -> float:
     """Return the relative change of an orbit's frequency on the refined system.
 
-    The refined equations are solved at the same amplitude and as many harmonics, by a tangent that
-    fits the orbit or its own and, for what refinement adds, by its stiffness, which is 1.
+    At the same amplitude, by a tangent that fits the orbit or its own.
     """
     unknowns = packed(orbit.coefficients, orbit.parts).size + 1
     if tangent is None or not tangent.fits(unknowns):
         tangent = LastTangent()
         tangent.factor(orbit)
+    phases, weights = orbit.crests
+
+    def height(moved: Orbit[Any]) -> float:
+        gauge = moved.system.gauge(moved.coordinates(phases)[0])
+        return float(weights @ gauge) - orbit.amplitude
+
+    moved = on_finer(orbit, tangent.factors, height)
+    return abs(moved.frequency / orbit.frequency - 1.0)
+
+
+def on_finer(
+    orbit: Orbit[S], factors: Any, last: Callable[[Orbit[S]], float], scale: float = 1.0
+) -> Orbit[S]:
+    """Return an orbit on the refined system, with as many harmonics.
+
+    By two steps with the factors of its own tangent and, for what refinement adds, by its
+    stiffness, which is 1. The `last` equation is zero; the last unknown is Ω over the scale.
+    """
     finer = orbit.finer
     kept = orbit.system.lifted(np.ones(orbit.system.size), finer) > 0.0
-    moved, (peaks, weights) = orbit.on(finer), orbit.crests
-    at, defect = orbit.period(fine=True), orbit.finer_defect
+    moved, at, defect = orbit.on(finer), orbit.period(fine=True), orbit.finer_defect
     for step in range(_FINER_STEPS):
         if step > 0:
             at = orbit.period()
-            defect = finer.residual(*moved.summed(at.waves))
+            defect = finer.residual(*moved.summed(at.waves), *moved.drive(at.phase))
         harmonics = packed(at.onto @ defect, moved.parts)
         change = -unpacked(harmonics, moved.parts, moved.coefficients.shape)
-        height = weights @ finer.gauge(moved.coordinates(peaks)[0])
-        defects = np.append(-packed(change[:, kept], orbit.parts), height - orbit.amplitude)
-        change_of_all = -solved(tangent.factors, defects)
+        defects = np.append(-packed(change[:, kept], orbit.parts), last(moved))
+        change_of_all = -solved(factors, defects)
         change[:, kept] = unpacked(change_of_all[:-1], orbit.parts, orbit.coefficients.shape)
         moved = replace(
             moved,
             coefficients=moved.coefficients + change,
-            frequency=moved.frequency + float(change_of_all[-1]),
+            frequency=moved.frequency + scale * float(change_of_all[-1]),
         )
-    return abs(moved.frequency / orbit.frequency - 1.0)
+    return moved

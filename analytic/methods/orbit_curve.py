@@ -18,7 +18,7 @@ from ..arrays import FloatArray
 from .arclength import Point, advanced, corrected, crossing, located
 from .continuation import Care, refined
 from .fourier import packed, unpacked
-from .harmonic_balance import jacobian, projected
+from .harmonic_balance import jacobian, on_finer, projected
 from .newton import NoOrbitError
 from .orbit import Orbit, S
 
@@ -28,6 +28,9 @@ Marked = tuple[Orbit[Any], Mark]
 amplitude, a "branch point" where another curve crosses."""
 
 _CARE = Care(harmonics=40, functions=64)
+RESPONSE_ERROR = 5e-5
+"""Of a table, over the amplitude: up to it functions grow, as long as there are more."""
+_LARGEST_ERROR = 1e-3
 _FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
 _MOST_POINTS = 4000
 _LEAST_SHARE = 1.0 / 32.0  # of a load, by which it is raised
@@ -41,9 +44,9 @@ class OrbitCurve(Generic[S]):
     like: Orbit[S]  # on the same system and harmonics
     origin: float  # the frequency is this plus the scale times the last unknown
     scale: float
-    # The orbit on as many more harmonics or functions as one lacks, None if it lacks none; raises
-    # NoOrbitError if that is more than are taken.
-    larger: Callable[[Orbit[S]], Orbit[S] | None]
+    # The orbit on as many more harmonics or functions as a point lacks, None if it lacks none;
+    # raises NoOrbitError if that is more than are taken.
+    larger: Callable[[At[S]], Orbit[S] | None]
 
     def unknowns(self, orbit: Orbit[Any]) -> FloatArray:
         """Return the unknowns of an orbit, cut or padded to these harmonics and functions."""
@@ -85,6 +88,16 @@ class At(Generic[S]):
         """The orbit."""
         return self.curve.orbit(self.point.z)
 
+    @cached_property
+    def error(self) -> float:
+        """What more functions change of the gauge's harmonics, over the largest.
+
+        Across the curve, so that it does not grow where the amplitude goes fast with the frequency.
+        """
+        moved = on_finer(self.orbit, self.point.factors, lambda _: 0.0, self.curve.scale)
+        change = moved.gauge_harmonics - self.orbit.gauge_harmonics
+        return float(np.abs(change).max() / np.abs(self.orbit.gauge_harmonics).max())
+
     def on(self, curve: OrbitCurve[S]) -> At[S]:
         """Return the nearest point of a finer curve."""
         here = curve.unknowns(self.orbit)
@@ -94,7 +107,7 @@ class At(Generic[S]):
     def resolved(self) -> At[S]:
         """Return the same with as many harmonics and functions as it needs."""
         at = self
-        while (larger := at.curve.larger(at.orbit)) is not None:
+        while (larger := at.curve.larger(at)) is not None:
             at = at.on(replace(at.curve, like=larger))
         return at
 
@@ -131,12 +144,14 @@ class At(Generic[S]):
 
 def response_curve(
     system: S, frequencies: FloatArray, largest: float, harmonics: int, tail: float = 1.0
-) -> list[Marked]:
+) -> tuple[list[Marked], float]:
     """Return the response from the first frequency to the last, in order along the curve.
 
     Followed by arclength through all folds, from the small response at the first; the frequencies
     between are met wherever the curve passes them. Curves that are not connected to it are not
     found. At least so many `harmonics` are taken; for the `tail` see `Care`.
+
+    With it comes its error, as `At` has it, at the highest point, of a table the largest.
 
     Raises
     ------
@@ -148,17 +163,20 @@ def response_curve(
     rest = np.zeros((2 * harmonics + 1, system.size))
     rest[0] = system.rest(first)
     like = Orbit(system=system, frequency=first, coefficients=rest)
-    care = _CARE._replace(tail=tail)
-    curve = OrbitCurve(like, first, last - first, partial(refined, care=care))
+    curve = OrbitCurve(like, first, last - first, partial(_larger, tail=tail))
     marked: list[Marked] = []
     try:
-        at = _beginning(curve)
+        highest = at = _beginning(curve)
+        error = at.error if tail > 1.0 else 0.0
         marked.append((at.orbit, "asked"))
         for here, there in at.followed(_FIRST_STEP, _LONGEST_STEP):
             between, over = _between(here, there, frequencies)
             marked += between
             if over:
-                return marked
+                return marked, max(error, highest.error)
+            if tail > 1.0:
+                error = max(error, there.error)
+            highest = max(highest, there, key=lambda one: one.orbit.amplitude)
             if there.orbit.amplitude > largest:
                 raise NoOrbitError(f"the amplitude exceeds {largest:g} there")
             marked.append((there.orbit, ""))
@@ -167,6 +185,15 @@ def response_curve(
     except NoOrbitError as reason:
         raise NoOrbitError(str(reason), marked, reason.remedy) from None
     raise NoOrbitError(f"the curve does not end within {_MOST_POINTS} points", marked)
+
+
+def _larger(at: At[S], tail: float) -> Orbit[S] | None:
+    """Return the orbit on more harmonics or functions: of a table until its error is small."""
+
+    def enough(more: bool) -> bool:
+        return at.error <= (RESPONSE_ERROR if more else _LARGEST_ERROR)
+
+    return refined(at.orbit, _CARE._replace(tail=tail), enough if tail > 1.0 else None)
 
 
 def _beginning(curve: OrbitCurve[S]) -> At[S]:

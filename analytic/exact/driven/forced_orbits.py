@@ -47,6 +47,9 @@ class ForcedResponse(Branch):
         q/L = Re Σ h_k exp(ikφ); h_0 is the mean.
     residual : ndarray (points,)
         Largest residual of the equations of motion, relative to the motion.
+    error : float
+        What more functions change of the harmonics, over the amplitude: at the highest point, of a
+        table the largest along the curve. NaN of a part of it.
     marks : tuple of str
         Mark of each point: "asked" for; "fold" where the curve turns around and the response jumps;
         "peak" where the amplitude is greatest or least; "branch point" where another curve crosses;
@@ -70,6 +73,7 @@ class ForcedResponse(Branch):
     load: Load
     harmonics: ComplexArray = field(repr=False)
     residual: FloatArray = field(repr=False)
+    error: float
 
     @property
     def phase(self) -> FloatArray:
@@ -161,5 +165,5 @@ class ForcedResponse(Branch):
             f"{self.frequency[0]:.6g} to {self.frequency[-1]:.6g} rad/s, largest |q|/L "
             f"{self.amplitude.max():.6g} at {self.frequency[np.argmax(self.amplitude)]:.6g} rad/s, "
             f"{'folds at ' + folds if folds else 'no folds'}; "
-            f"residual at most {self.residual.max():.1e}"
+            f"error {self.error:.0e}"
         )

@@ -160,7 +160,7 @@ def _followed(
 ) -> list[Marked] | None:
     """Return the orbits that follow two, to `up_to` at most; None if the path just goes on."""
     scale = _FREQUENCY_SCALE * last.frequency
-    curve = OrbitCurve(last, last.frequency, scale, _better_resolved)
+    curve = OrbitCurve(last, last.frequency, scale, lambda at: _better_resolved(at.orbit))
     start = curve.unknowns(last)
     piece: list[Marked] = [(last, "")]
     # As far as it is resolved.

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -258,7 +257,9 @@ def _followed(leaving: _Leaving, birth: BladeOrbit, points: int) -> tuple[list[B
     block, places = leaving.block(birth)
     values, vectors = np.linalg.eigh(block)
     size = float(np.linalg.norm(packed(birth.coefficients, birth.parts)))
-    curve = OrbitCurve(birth, birth.frequency, birth.frequency / size, partial(refined, care=_CARE))
+    curve = OrbitCurve(
+        birth, birth.frequency, birth.frequency / size, lambda at: refined(at.orbit, _CARE)
+    )
     start = curve.unknowns(birth)
     across = np.zeros(start.size)
     across[places] = vectors[:, np.argmin(np.abs(values))]
