@@ -22,6 +22,7 @@ RESIDUAL_BOUND = 1e-4
 FREQUENCY_BOUND = 1e-9
 """Relative change of an orbit's frequency under one more refinement, up to which it is settled."""
 
+_OF_TABLES, _DRIFT = 1e-7, 1e-8  # the same of tables, whose data do not deserve more
 _LARGE_DRIFT = 1e-7  # that with which the most harmonics are let go
 _TRUNCATED = 5e-6  # residual of harmonics left out, which leave 1e-6 of a response's amplitude
 _FEWEST_HARMONICS = 6
@@ -42,6 +43,15 @@ class Care(NamedTuple):
     functions: int = 128  # at most
     unknowns: int = 4000  # at most, whose Jacobian takes 128 MB
     tail: float = 1.0  # times `RESIDUAL_BOUND`, what kinks of the section may leave
+
+    @property
+    def change(self) -> float:
+        """Relative change of the frequency by more functions, at which they suffice."""
+        return FREQUENCY_BOUND if self.tail == 1.0 else _OF_TABLES
+
+    def of_table(self, tail: float) -> Care:
+        """Return the same for a table, or for a smooth blade, whose tail is 1."""
+        return self if tail == 1.0 else self._replace(tail=tail, drift=max(self.drift, _DRIFT))
 
 
 THOROUGH = Care()
@@ -156,7 +166,7 @@ class Path(Generic[S]):
     def _settled(self, orbit: Orbit[S]) -> Orbit[S]:
         """Return the orbit with its frequency's error, on as many functions as that needs."""
         error, tangent = frequency_change(orbit, self.tangent), LastTangent()
-        while error > FREQUENCY_BOUND:
+        while error > self.care.change:
             try:
                 orbit = solve(_on_more_functions(orbit), orbit.amplitude, tangent)
             except NoOrbitError:
@@ -206,8 +216,8 @@ def refined(
     """Return the orbit on more harmonics or functions, to be solved again; None if it needs none.
 
     Harmonics until the invariant is constant or, under a drive, until they leave a small residual;
-    functions until the residual on half as many again is small, or they are `enough`, which is told
-    whether there are more. Raises NoOrbitError where that takes more than are taken.
+    functions until the residual on half as many again is small, or by `enough`, a function of
+    whether more are possible. Raises NoOrbitError where that takes more than are taken.
     """
     if orbit.system.driven:
         lacks, left = orbit.truncation > _TRUNCATED, f"a residual of {orbit.truncation:.1e}"

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import count
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from .fourier import Period, packed, unpacked
-from .newton import Newton, NoOrbitError, factored, length, solved
+from .newton import LARGE, Newton, NoOrbitError, factored, length, solved
 from .orbit import Orbit, S
 
 # Of the odd coordinates and of Ω; in the energies they count a 1000 times. Small orbits may
@@ -24,6 +25,7 @@ from .orbit import Orbit, S
 _NEWTON = Newton(
     converged=4e-15, stagnates=1e-9, slow=0.4, steps=25, tangents=8, largest=1.0, broyden=True
 )
+_OF_MANY = replace(_NEWTON, patient=True)  # whose tangents are dear
 _SAME_PEAK = 1e-8  # relative distance of peaks that are one
 _PEAKS = 3  # tried, where another becomes the highest
 _FINER_STEPS = 2  # after which a tenth of the change is left out, or less
@@ -107,10 +109,14 @@ class LastTangent:
         """Return whether it is one for so many unknowns, the frequency among them."""
         return self.factors is not None and len(self.factors[0]) == unknowns
 
-    def factor(self, orbit: Orbit[Any]) -> None:
-        """Factor the tangent at the orbit, the derivatives of its peak the last row."""
-        matrix = jacobian(orbit)
-        matrix[-1] = orbit.peak_gradient()
+    def factor(self, orbit: Orbit[Any], *, coarse: bool = True) -> None:
+        """Factor the tangent at the orbit, the derivatives of its peak the last row.
+
+        Of many unknowns a `coarse` one, unless it is not to be.
+        """
+        peak = orbit.peak_gradient()
+        matrix = jacobian(orbit, coarse=coarse and peak.size > LARGE)
+        matrix[-1] = peak
         self.factors = factored(matrix)
 
 
@@ -138,9 +144,11 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
         crest.follow(here)
         return np.append(projected(here), crest.height - amplitude)
 
+    made = count()
+
     def linearized(z: FloatArray) -> tuple[Any, FloatArray]:
         defect = residual(z)
-        tangent.factor(orbit(z))
+        tangent.factor(orbit(z), coarse=next(made) == 0)
         return tangent.factors, defect
 
     def size(z: FloatArray, change: FloatArray) -> float:
@@ -150,8 +158,9 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
 
     z = np.append(packed(guess.coefficients, parts), guess.frequency)
     others = factors = tangent.factors if tangent.fits(z.size) else None
+    newton = _OF_MANY if z.size > LARGE else _NEWTON
     for _ in range(_PEAKS):
-        root = _NEWTON.root(z, residual, linearized, size=size, factors=factors)
+        root = newton.root(z, residual, linearized, size=size, factors=factors)
         if root is None:
             break
         z, factors = root.z, root.factors

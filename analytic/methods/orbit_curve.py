@@ -29,7 +29,7 @@ amplitude, a "branch point" where another curve crosses."""
 
 _CARE = Care(harmonics=40, functions=64)
 RESPONSE_ERROR = 5e-5
-"""Of a table, over the amplitude: up to it functions grow, as long as there are more."""
+"""Error over the amplitude down to which functions grow on a table, as long as there are more."""
 _LARGEST_ERROR = 1e-3
 _FIRST_STEP, _LONGEST_STEP = 0.02, 0.25
 _MOST_POINTS = 4000
@@ -90,13 +90,16 @@ class At(Generic[S]):
 
     @cached_property
     def error(self) -> float:
-        """What more functions change of the gauge's harmonics, over the largest.
+        """Change of the gauge's harmonics on more functions, over the largest.
 
         Across the curve, so that it does not grow where the amplitude goes fast with the frequency.
         """
+        largest = float(np.abs(self.orbit.gauge_harmonics).max())
+        if largest < _STILL:
+            return 0.0
         moved = on_finer(self.orbit, self.point.factors, lambda _: 0.0, self.curve.scale)
         change = moved.gauge_harmonics - self.orbit.gauge_harmonics
-        return float(np.abs(change).max() / np.abs(self.orbit.gauge_harmonics).max())
+        return float(np.abs(change).max()) / largest
 
     def on(self, curve: OrbitCurve[S]) -> At[S]:
         """Return the nearest point of a finer curve."""
@@ -145,13 +148,13 @@ class At(Generic[S]):
 def response_curve(
     system: S, frequencies: FloatArray, largest: float, harmonics: int, tail: float = 1.0
 ) -> tuple[list[Marked], float]:
-    """Return the response from the first frequency to the last, in order along the curve.
+    """Return the response from the first frequency to the last, along the curve, and its error.
 
     Followed by arclength through all folds, from the small response at the first; the frequencies
     between are met wherever the curve passes them. Curves that are not connected to it are not
     found. At least so many `harmonics` are taken; for the `tail` see `Care`.
 
-    With it comes its error, as `At` has it, at the highest point, of a table the largest.
+    The error is that of `At` at the highest point, of a table the largest.
 
     Raises
     ------
@@ -234,6 +237,8 @@ def _between(at: At[S], there: At[S], frequencies: FloatArray) -> tuple[list[Mar
     stops = [at.point, *([fold] if fold is not None else []), there.point]
     for one, other in pairwise(stops):
         for value in (frequencies - curve.origin) / curve.scale:
+            if value == 0.0 and other.z[-1] > one.z[-1]:
+                continue  # the beginning, which refinement has moved back a little
             if (one.z[-1] - value) * (other.z[-1] - value) < 0.0 or other.z[-1] == value:
                 point = _at_frequency(curve, one, other, float(value))
                 if point is not None:

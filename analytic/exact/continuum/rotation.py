@@ -265,9 +265,11 @@ class SteadyBlade:
         few = slice(None, None, -(-len(state[0]) // _INSTANTS))
         q, q_dot, q_ddot, *drive = (one[few] if np.ndim(one) else one for one in state)
         caused = self.model.forces_caused(q, q_dot, q_ddot, self.by(*drive))
-        moved = q - q.mean(axis=0)
+        moved, mean = q - q.mean(axis=0), caused.mean(axis=2, keepdims=True)
         energy = float(np.sum(moved * (moved @ self.model.functions.stiffness), axis=1).max())
-        return self.onto(caused / math.sqrt(energy or 1.0))
+        # The mean apart, beside which the forces of a small motion would be round-off.
+        motion = (caused - mean) / math.sqrt(energy or 1.0)
+        return self.onto(np.concatenate((mean, motion), axis=2))
 
     @cached_property
     def _finer(self) -> Self:

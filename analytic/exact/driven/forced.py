@@ -88,8 +88,8 @@ def forced_response(
 
     Harmonic balance with a full Fourier series, followed by arclength through folds, so that
     unstable responses between are found as well. Harmonics and functions grow until the rest
-    changes the amplitude by about 1e-6, of a table by 5e-5; `error` of the result has it. Curves
-    that are not connected to the response at the first frequency (isolas) are not found.
+    changes the amplitude by about 1e-6, of a table by 5e-5: see `error` of the result. Curves that
+    are not connected to the response at the first frequency (isolas) are not found.
 
     Gravity goes around once a turn, for the plane of rotation stands vertical: its frequency is ω,
     which varies along the curve.
@@ -192,9 +192,8 @@ def forced_response(
         ) from None
     if error > RESPONSE_ERROR:
         warn(
-            f"the response to {load} is known to {error:.1e} of its amplitude: the table has more "
-            f"steps than {marked[-1][0].system.functions} functions resolve. Give the stations "
-            "that its sections need, and no others"
+            f"the response to {load} is known to {error:.1e} of its amplitude: no more functions "
+            "are taken for the steps of the table; smooth those that its data do not know"
         )
     return _packed(blade, load, theory, marked, error)
 

@@ -170,7 +170,7 @@ def backbone(
     each = max(functions // 2, 2 * int(number) + 2)
     model = continuum_of(blade, theory, functions, each, mode=int(number), leaves=leaves)
     of = Backbone(blade=blade, omega=omega, mode=name, theory=theory, model=model)
-    return replace(of, care=of.care._replace(tail=model.tail))
+    return replace(of, care=of.care.of_table(model.tail))
 
 
 def periodic_orbits(

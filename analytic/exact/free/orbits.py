@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 
 from ...arrays import FloatArray
 from ...input_checks import finite_array, finite_number, finite_values
-from ...methods.continuation import FREQUENCY_BOUND
 from ...methods.newton import NoOrbitError
 from ...plotting import axes_or_new, backbone_drawn
 from ..continuum.rotation import BladeOrbit
@@ -177,7 +176,7 @@ def _confirmed(of: ModePath, orbits: dict[float, BladeOrbit]) -> dict[float, Bla
             one = finer.get(a, orbits[a])
             change = abs(one.frequency / orbits[a].frequency - 1.0) if a in finer else math.inf
             orbits[a] = replace(one, frequency_error=max(one.frequency_error, change))
-            if change > FREQUENCY_BOUND:
+            if change > of.care.change:
                 changing.append(a)
         suspects = changing
     return orbits

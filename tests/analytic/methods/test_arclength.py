@@ -9,14 +9,21 @@ from analytic.methods.arclength import advanced, corrected, crossing, located
 from analytic.methods.newton import NoOrbitError
 
 
+@pytest.fixture(params=["few", "many"], autouse=True)
+def unknowns(request, monkeypatch):
+    """Few unknowns, or as of many: coarse factors, and directions by differences."""
+    if request.param == "many":
+        monkeypatch.setattr("analytic.methods.arclength.LARGE", 0)
+
+
 class Circle:
     """x² + p² = 1: two folds in p."""
 
     def residual(self, z):
         return np.array([z @ z - 1.0])
 
-    def jacobian(self, z):
-        return 2.0 * z[None]
+    def jacobian(self, z, *, coarse=False):
+        return (1.8 if coarse else 2.0) * z[None]
 
 
 class Pitchfork:
@@ -29,7 +36,7 @@ class Pitchfork:
         x, y, p = z
         return np.array([x * (x**2 + y - p), y - x**2 * p])
 
-    def jacobian(self, z):
+    def jacobian(self, z, *, coarse=False):
         x, y, p = z
         return np.array([[3.0 * x**2 + y - p, x, -x], [-2.0 * x * p, 1.0, -(x**2)]])
 

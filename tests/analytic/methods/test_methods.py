@@ -196,6 +196,20 @@ def test_the_jacobian_is_the_derivative_of_the_projected_residual(system):
     assert matrix == pytest.approx(np.transpose(differences), abs=1e-9)
 
 
+@pytest.mark.parametrize("system", [Coupled(), Lopsided(), Driven()])
+def test_a_coarse_jacobian_resolves_half_of_the_harmonics(system):
+    """The tangent of a cubic system has twice the harmonics of the motion: up to six of twelve."""
+    at = Orbit(system=system, frequency=1.3, coefficients=np.zeros((25, 2)))
+    coefficients = np.zeros((25, 2))
+    random = 0.1 * np.random.default_rng(0).standard_normal((7, 2))
+    coefficients[:4], coefficients[13:16] = random[:4], random[4:]
+    unknowns = packed(coefficients, at.parts)
+    here = replace(at, coefficients=unpacked(unknowns, at.parts, (25, 2)))
+    assert jacobian(here, coarse=True) == pytest.approx(jacobian(here), abs=1e-11)
+    more = replace(here, coefficients=here.coefficients + 1e-2 * np.eye(25, 2, -5))
+    assert np.abs(jacobian(more, coarse=True) - jacobian(more)).max() > 1e-4
+
+
 def test_old_factors_and_products_solve_as_new_factors_do():
     """The rank in which they differ is the number of products; one more checks the solution.
 

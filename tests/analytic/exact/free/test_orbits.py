@@ -53,7 +53,10 @@ def test_an_orbit_takes_the_functions_that_its_frequency_needs(beam, functions):
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
 def test_near_a_resonance_no_orbit_depends_on_the_functions():
-    """Where several orbits have one amplitude: 5e-4 lay between 16 functions and 24."""
+    """Where several orbits have one amplitude: 5e-4 lay between 16 functions and 24.
+
+    One that finer functions do not confirm has an infinite error.
+    """
     blade = UNIT.with_hub_radius(5.0)
     found = []
     for functions in (20, 24):
@@ -63,9 +66,12 @@ def test_near_a_resonance_no_orbit_depends_on_the_functions():
             )
         except AmplitudeNotReachedError as beyond:
             orbits = beyond.part
-        assert orbits.frequency_error.max() < 1e-9
-        found.append(orbits.frequency)
-    assert found[0] == pytest.approx(found[1], rel=2e-9)
+        known = np.isfinite(orbits.frequency_error)
+        assert known[0]
+        assert orbits.frequency_error[known].max() < 1e-9
+        found.append(np.where(known, orbits.frequency, np.nan)[:2])
+    both = np.isfinite(found[0]) & np.isfinite(found[1])
+    assert found[0][both] == pytest.approx(found[1][both], rel=2e-9)
 
 
 def test_invariants(backbone):
@@ -191,7 +197,9 @@ def test_the_tangent_of_an_orbit_near_by_finds_the_same_orbit(beam, monkeypatch)
     factored = []
     at = harmonic_balance.jacobian
     monkeypatch.setattr(
-        harmonic_balance, "jacobian", lambda orbit: factored.append(orbit) or at(orbit)
+        harmonic_balance,
+        "jacobian",
+        lambda orbit, **kind: factored.append(orbit) or at(orbit, **kind),
     )
     path = analytic.backbone(beam, 6.0).path
     near, far = path.laid(0.2), path.laid(0.25)
