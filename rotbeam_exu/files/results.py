@@ -20,8 +20,8 @@ from ..lazily import xr
 from .result_tables import tables_of, title
 
 OUTCOMES = frozenset(
-    {"divergence_speed", "error", "failure", "residual", "sentence"}
-    | {"settings", "solution", "verdict", "versions", "wall_time"}
+    {"divergence_speed", "error", "failure", "planar", "residual", "sentence"}
+    | {"settings", "solution", "stable_covers", "verdict", "versions", "wall_time"}
 )
 """Attributes of a result that follow from its inputs, and from where and when it was made."""
 

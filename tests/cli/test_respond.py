@@ -57,7 +57,8 @@ def test_the_table_has_ends_folds_and_peaks_and_the_files_the_curve(
 
 def test_it_is_followed_through_lag_1_unless_told_otherwise(call, tmp_path):
     options = ("--tip-force", "0.5", "--damping-ratio", "0.02", "--points", "3", "--no-figure")
-    code, out, error = call("respond", "--omega", "6", *options, "-o", tmp_path)
+    for _ in range(2):  # the second replaces the first
+        code, out, error = call("respond", "--omega", "6", *options, "-o", tmp_path)
     assert (code, error) == (0, "")
     (path,) = tmp_path.glob("*.nc")
     assert path.name == "response-omega-6-tip-force-0.5-from-3.36-to-4.1.nc"
