@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+import pickle
+from collections.abc import Mapping
+from concurrent.futures import Executor
+from functools import lru_cache, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 from ..input_checks import whole_number
@@ -31,6 +32,7 @@ def sampled(
     *,
     count: int = 200,
     seed: int = 0,
+    executor: Executor | None = None,
 ) -> FloatArray:
     """Return an answer's numbers for sampled blades, (count, outputs), as `sensitivity` names them.
 
@@ -47,6 +49,8 @@ def sampled(
         As for `spread`.
     count, seed : int
         Number of samples, and of the generator.
+    executor : concurrent.futures.Executor, optional
+        Solves the samples, as processes or Dask's `client.get_executor()`; by default none.
 
     Examples
     --------
@@ -64,37 +68,55 @@ def sampled(
     roots = [
         np.linalg.cholesky(correlations(answer.blade, known, name, length)) for name in deviations
     ]
-    dims = sum(len(root) for root in roots)
-    points = stats.norm.ppf(stats.qmc.LatinHypercube(dims, rng=seed).random(count))
-    failed = list[str]()
-    result = np.full((count, len(found.outputs)), np.nan)
-    for row, point in zip(result, np.clip(points, -_FAR, _FAR), strict=True):
-        try:
-            row[:] = _solved(answer, found, deviations, roots, point)
-        except (ValueError, RuntimeError) as error:
-            failed.append(str(error))
-    if failed:
+    points = stats.norm.ppf(stats.qmc.LatinHypercube(sum(map(len, roots)), rng=seed).random(count))
+    parts = np.split(
+        np.clip(points, -_FAR, _FAR), np.cumsum([len(root) for root in roots])[:-1], axis=1
+    )
+    scattered = {
+        name: deviation * part @ root.T
+        for (name, deviation), part, root in zip(deviations.items(), parts, roots, strict=True)
+    }
+    samples = [{name: of[k] for name, of in scattered.items()} for k in range(count)]
+    solved = (
+        map(partial(_solved, answer, found), samples)
+        if executor is None
+        else executor.map(partial(_solved_there, pickle.dumps(answer)), samples)
+    )
+    numbers, reasons = zip(*solved, strict=True)
+    if failed := [*filter(None, reasons)]:
         warn(f"{len(failed)} of {count} samples are without an answer, the first as {failed[0]}")
-    return result
+    return np.array(numbers)
+
+
+@one_thread
+def _solved_there(answer: bytes, changes: Mapping[str, FloatArray]) -> tuple[list[float], str]:
+    """Return the same in a worker, which prepares the answer once."""
+    return _solved(*_prepared(answer), changes)
+
+
+@lru_cache(maxsize=1)
+def _prepared(packed: bytes) -> tuple[Answer, Derivatives]:
+    answer: Answer = pickle.loads(packed)
+    return answer, kind_of(answer)
 
 
 def _solved(
-    answer: Answer, found: Derivatives, deviations: Mapping[str, float],
-    roots: Sequence[NDArray[Any]], point: FloatArray,
-) -> list[float]:  # fmt: skip
-    """Return the numbers of a sample, whose deviations over the standard ones are `point`."""
-    blade, given, begin = answer.blade, found.given, 0
-    for (name, deviation), root in zip(deviations.items(), roots, strict=True):
-        change = deviation * (root @ point[begin : begin + len(root)])
-        begin += len(root)
-        condition = name in found.conditions
-        now = (
-            conditions_of(*given, answer.blade.frequency_scale)
-            if condition
-            else parameters_of(blade, answer.theory)
-        )[name]
-        value = np.maximum(now.value + change, now.least)
-        other = now.changed(value if value.size > 1 else float(value[0]))
-        blade, given = (blade, other) if condition else (other, given)
-    numbers = found.again(blade, *given)
-    return [numbers.get(name, math.nan) for name in found.outputs]
+    answer: Answer, found: Derivatives, changes: Mapping[str, FloatArray]
+) -> tuple[list[float], str]:
+    """Return the numbers of a blade with changes by name, or NaN and why there is no answer."""
+    blade, given = answer.blade, found.given
+    try:
+        for name, change in changes.items():
+            condition = name in found.conditions
+            now = (
+                conditions_of(*given, answer.blade.frequency_scale)
+                if condition
+                else parameters_of(blade, answer.theory)
+            )[name]
+            value = np.maximum(now.value + change, now.least)
+            other = now.changed(value if value.size > 1 else float(value[0]))
+            blade, given = (blade, other) if condition else (other, given)
+        numbers = found.again(blade, *given)
+    except (ValueError, RuntimeError) as error:
+        return [math.nan] * len(found.outputs), str(error)
+    return [numbers.get(name, math.nan) for name in found.outputs], ""

@@ -89,7 +89,7 @@ class Workers:
     jobs
         Number of processes; by default one per core.
     cache
-        Folder with one file per finished spin-up, and of converge per mesh; a stopped command
+        Folder with one file per finished spin-up, mesh of converge or sample; a stopped command
         continues from it.
     """
 

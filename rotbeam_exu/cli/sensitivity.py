@@ -17,7 +17,7 @@ from analytic.warning import warn
 
 from .job import Flag, Results
 from .motion import chosen_motion
-from .options import Number, Numbers, Whole
+from .options import Number, Numbers, Whole, Workers
 from .output import bar, formatted, print_columns, print_text
 from .request import Request, uses
 
@@ -45,6 +45,7 @@ def sensitivity(
     scatter: Annotated[tuple[str, ...], Parameter(consume_multiple=True)] = (),
     length: Number | None = None,
     samples: Whole = 0,
+    workers: Workers = Workers(),
     out: Annotated[Path | None, Parameter(alias="-o")] = None,
     force: Flag = False,
 ) -> None:
@@ -145,9 +146,20 @@ def sensitivity(
     if scattered:
         several = None
         if samples:
-            with bar("samples"):
-                several = sampled(answer, deviations, correlated, count=samples)
+            from ..sweeps.cases import kept_workers
+
+            of = {**_inputs(found), "outputs": [*found.outputs], "values": found.values.tolist()}
+            with (
+                workers.counted("samples", "samples") as how,
+                kept_workers(of, most=samples, **how) as pool,
+            ):
+                several = sampled(answer, deviations, correlated, count=samples, executor=pool)
         _print_spread(found, scattered, several)
+
+
+def _inputs(found: Sensitivity) -> dict[str, object]:
+    """Return the numbers of the blade and its rotation."""
+    return {one.name: np.asarray(one.value).tolist() for one in found.parameters}
 
 
 def _print_spread(found: Sensitivity, result: Spread, samples: FloatArray | None) -> None:

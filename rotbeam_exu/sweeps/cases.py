@@ -9,7 +9,7 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -88,11 +88,16 @@ def maker(element: str | Formulation) -> dict[str, str] | None:
     """
     cls = type(formulation(element))
     tops = {base.__module__.partition(".")[0] for base in cls.__mro__} - sys.stdlib_module_names
-    sources = [_files(name) for name in sorted({"analytic", "rotbeam_exu", *tops})]
-    if any("<locals>" in base.__qualname__ for base in cls.__mro__) or not all(sources):
+    code = _code(*tops)
+    if any("<locals>" in base.__qualname__ for base in cls.__mro__) or not code:
         return None
-    code = hashlib.sha256(repr(sources).encode()).hexdigest()
     return {"class": f"{cls.__module__}.{cls.__qualname__}", "code": code}
+
+
+def _code(*tops: str) -> str:
+    """Return a digest of the files of both packages and others; none if one is not on file."""
+    sources = [_files(name) for name in sorted({"analytic", "rotbeam_exu", *tops})]
+    return hashlib.sha256(repr(sources).encode()).hexdigest() if all(sources) else ""
 
 
 def _files(name: str) -> list[tuple[str, bytes]]:
@@ -135,6 +140,49 @@ def worker_pool(executor: Executor | None, jobs: int | None, most: int) -> Itera
             thread.join()
         raise
     pool.shutdown()
+
+
+@contextmanager
+def kept_workers(
+    of: Mapping[str, object], jobs: int | None, most: int, *,
+    cache: str | os.PathLike[str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Iterator[Executor]:  # fmt: skip
+    """Give workers for `sampled`, whose samples of one answer stay in a cache.
+
+    They are told apart by what the answer is `of`, as JSON has it, and by their changes.
+    """
+    store = None if cache is None else Cache(cache, made_by={"code": _code()})
+    with worker_pool(None, jobs, most) as pool:
+        yield _Kept(pool, dict(of), store, progress)
+
+
+class _Kept(Executor):
+    def __init__(
+        self, pool: Executor, of: dict[str, object], store: Cache | None,
+        progress: Callable[[int, int], None] | None,
+    ) -> None:  # fmt: skip
+        self._pool, self._of, self._store, self._progress = pool, of, store, progress
+
+    def map(self, fn: Any, *iterables: Any, **options: Any) -> Iterator[Any]:
+        """Yield (numbers, reason) of each sample in order."""
+        del options
+        (cases,) = map(list, iterables)
+        named = [{**self._of, **{k: v.tolist() for k, v in case.items()}} for case in cases]
+        kept = {k: self._store.get(one) for k, one in enumerate(named)} if self._store else {}
+        waiting = {
+            k: self._pool.submit(fn, case) for k, case in enumerate(cases) if kept.get(k) is None
+        }
+        for k, one in enumerate(named):
+            result = kept.get(k)
+            if result is None:
+                numbers, reason = waiting[k].result()
+                result = xr.Dataset({"number": ("output", numbers)}, attrs={"failure": reason})
+                if self._store:
+                    self._store.put(one, result)
+            if self._progress:
+                self._progress(k + 1, len(cases))
+            yield result["number"].to_numpy(), result.attrs["failure"]
 
 
 class _Processes(ProcessPoolExecutor):
