@@ -194,7 +194,14 @@ def _larger(at: At[S], tail: float) -> Orbit[S] | None:
     """Return the orbit on more harmonics or functions: of a table until its error is small."""
 
     def enough(more: bool) -> bool:
-        return at.error <= (RESPONSE_ERROR if more else _LARGEST_ERROR)
+        if not more and at.error > _LARGEST_ERROR:
+            count = at.orbit.system.functions
+            raise NoOrbitError(
+                f"{count} functions leave {at.error:.1e} of the amplitude unknown",
+                remedy="no damping helps where functions are missing: smooth the steps of the "
+                "table that its data do not know",
+            )
+        return not more or at.error <= RESPONSE_ERROR
 
     return refined(at.orbit, _CARE._replace(tail=tail), enough if tail > 1.0 else None)
 

@@ -8,6 +8,7 @@ import pytest
 from analytic import (
     Blade,
     Damping,
+    ResponseNotReachedError,
     RotbeamWarning,
     SpinUp,
     Theory,
@@ -19,6 +20,7 @@ from analytic import (
     steady_state,
 )
 from analytic.exact.continuum.unit import StationUnit
+from analytic.methods import orbit_curve
 from tests.beams import irregular
 
 STEEP = pytest.mark.filterwarnings("ignore:.* the twist is so steep that fibers")
@@ -215,3 +217,21 @@ def test_another_code_has_the_sag_of_irregular_tables_in_rotation(table, tip):
     theory = Theory(shear=True, rotary_inertia=True, trapeze=False)
     state = steady_state(blade, 15.0, gravity=9.81, theory=theory)
     assert (*state.tip[1:], state.twist) == pytest.approx(tip, rel=3e-6)
+
+
+def test_where_functions_are_missing_the_error_is_told_and_smoothing_mends_it(monkeypatch):
+    """As of a table with more steps than any so far, here by few functions."""
+
+    def response(sigma):
+        blade = irregular(4, sigma, 8)
+        blade = blade.with_damping(Damping.from_ratio(blade, 1, 0.05))
+        return forced_response(blade, 2.0, TipForce(amplitude=0.01), [2.0, 2.05])
+
+    known = response(0.0)
+    monkeypatch.setattr(orbit_curve, "_CARE", orbit_curve._CARE._replace(functions=5))
+    with pytest.raises(ResponseNotReachedError, match="5 functions leave .* smooth"):
+        response(0.03)
+    with pytest.warns(RotbeamWarning, match=r"is known to \S+ of its amplitude: no more functions"):
+        found = response(0.0)
+    assert 5e-5 < found.error < 1e-3
+    assert np.abs(found.amplitude[[0, -1]] / known.amplitude[[0, -1]] - 1.0).max() < found.error
