@@ -197,7 +197,7 @@ def _larger(at: At[S], tail: float) -> Orbit[S] | None:
         if not more and at.error > _LARGEST_ERROR:
             count = at.orbit.system.functions
             raise NoOrbitError(
-                f"{count} functions leave {at.error:.1e} of the amplitude unknown",
+                f"with {count} functions {at.error:.1e} of the amplitude is unknown",
                 remedy="no damping helps where functions are missing: smooth the steps of the "
                 "table that its data do not know",
             )

@@ -150,7 +150,7 @@ def kept_workers(
 ) -> Iterator[Executor]:  # fmt: skip
     """Give workers for `sampled`, whose samples of one answer stay in a cache.
 
-    They are told apart by what the answer is `of`, as JSON has it, and by their changes.
+    What the answer is `of`, as JSON, and their changes name them there.
     """
     store = None if cache is None else Cache(cache, made_by={"code": _code()})
     with worker_pool(None, jobs, most) as pool:

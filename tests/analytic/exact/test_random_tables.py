@@ -229,7 +229,7 @@ def test_where_functions_are_missing_the_error_is_told_and_smoothing_mends_it(mo
 
     known = response(0.0)
     monkeypatch.setattr(orbit_curve, "_CARE", orbit_curve._CARE._replace(functions=5))
-    with pytest.raises(ResponseNotReachedError, match="5 functions leave .* smooth"):
+    with pytest.raises(ResponseNotReachedError, match="with 5 functions .* smooth"):
         response(0.03)
     with pytest.warns(RotbeamWarning, match=r"is known to \S+ of its amplitude: no more functions"):
         found = response(0.0)

@@ -205,7 +205,8 @@ def test_a_coarse_jacobian_resolves_half_of_the_harmonics(system):
     coefficients[:4], coefficients[13:16] = random[:4], random[4:]
     unknowns = packed(coefficients, at.parts)
     here = replace(at, coefficients=unpacked(unknowns, at.parts, (25, 2)))
-    assert jacobian(here, coarse=True) == pytest.approx(jacobian(here), abs=1e-11)
+    # The system's own tangent is by differences.
+    assert jacobian(here, coarse=True) == pytest.approx(jacobian(here), abs=1e-8)
     more = replace(here, coefficients=here.coefficients + 1e-2 * np.eye(25, 2, -5))
     assert np.abs(jacobian(more, coarse=True) - jacobian(more)).max() > 1e-4
 
