@@ -68,7 +68,7 @@ def test_the_error_of_a_spin_up_is_not_larger_than_told(by_panels, count, tolera
     assert found.error < tolerance
     by_panels()
     known = spin_up_response(blade, motion, times, tolerance=0.1 * tolerance)
-    assert known._model.blade.panel_count == count - 1
+    assert known.model.blade.panel_count == count - 1
     size = np.abs(known.tip[:, 1:]).max()
     for one, other in ((found.tip, known.tip), (found.twist, known.twist)):
         assert np.abs(one - other).max() < (found.error + known.error) * size

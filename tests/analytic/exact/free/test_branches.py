@@ -152,7 +152,7 @@ def test_a_branch_without_a_felt_resonance_is_the_backbone(beam):
     ("omega", "up_to", "resonances", "folds"),
     [
         (2.0, 0.8535, {(17, 3): 0.125, (33, 4): 0.262, (6, 2): 0.637, (32, 4): 0.668,
-                       (16, 3): 0.682, (31, 4): 0.845}, [0.63741, 0.85339]),
+                       (16, 3): 0.682, (31, 4): 0.845}, [0.63741, 0.66866, 0.85339]),
         (4.0, 0.9, {(16, 3): 0.128, (30, 4): 0.606, (6, 2): 0.737, (15, 3): 0.793,
                     (29, 4): 0.897}, [0.73567, 0.79202, 0.79411]),
         (6.0, 0.9, {(15, 3): 0.431, (28, 4): 0.530}, []),
@@ -165,9 +165,9 @@ def test_branches_of_the_papers_beam_by_two_resolutions(
     """As in the table of docs/theory/harmonic_balance.md."""
     found = backbone(beam, omega, functions=functions).branch(up_to=0.9)
     met = {
-        (r.harmonic, r.mode): r.amplitude
+        (r.harmonic, int(r.mode.removeprefix("lag "))): r.amplitude
         for r in found.resonances
-        if r.mode <= 4 and r.amplitude < up_to - 1e-3  # where more functions move the end
+        if r.mode <= "lag 4" and r.amplitude < up_to - 1e-3  # where more functions move the end
     }
     assert met == pytest.approx(resonances, abs=2e-3)
     turns = sorted(fold.amplitude for fold in found.folds if fold.amplitude < up_to)

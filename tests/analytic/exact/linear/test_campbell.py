@@ -9,7 +9,7 @@ from analytic import Rectangle, Theory, campbell, linear_modes
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import unit_beam
 
-NREL = Path(__file__).parents[3] / "models" / "blades" / "nrel_5mw.toml"
+NREL = Path(__file__).parents[4] / "models" / "blades" / "nrel_5mw.toml"
 
 
 @pytest.fixture(scope="module")
