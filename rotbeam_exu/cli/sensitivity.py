@@ -146,20 +146,21 @@ def sensitivity(
     if scattered:
         several = None
         if samples:
+            from ..runs.attributes import theory_attributes
             from ..sweeps.cases import kept_workers
 
-            of = {**_inputs(found), "outputs": [*found.outputs], "values": found.values.tolist()}
+            of = {
+                **{one.name: np.asarray(one.value).tolist() for one in found.parameters},
+                **theory_attributes(theory),
+                "outputs": [*found.outputs],
+                "values": found.values.tolist(),
+            }
             with (
                 workers.counted("samples", "samples") as how,
                 kept_workers(of, most=samples, **how) as pool,
             ):
                 several = sampled(answer, deviations, correlated, count=samples, executor=pool)
         _print_spread(found, scattered, several)
-
-
-def _inputs(found: Sensitivity) -> dict[str, object]:
-    """Return the numbers of the blade and its rotation."""
-    return {one.name: np.asarray(one.value).tolist() for one in found.parameters}
 
 
 def _print_spread(found: Sensitivity, result: Spread, samples: FloatArray | None) -> None:

@@ -154,12 +154,12 @@ def kept_workers(
     """
     store = None if cache is None else Cache(cache, made_by={"code": _code()})
     with worker_pool(None, jobs, most) as pool:
-        yield _Kept(pool, dict(of), store, progress)
+        yield _Kept(pool, of, store, progress)
 
 
 class _Kept(Executor):
     def __init__(
-        self, pool: Executor, of: dict[str, object], store: Cache | None,
+        self, pool: Executor, of: Mapping[str, object], store: Cache | None,
         progress: Callable[[int, int], None] | None,
     ) -> None:  # fmt: skip
         self._pool, self._of, self._store, self._progress = pool, of, store, progress
@@ -168,7 +168,10 @@ class _Kept(Executor):
         """Yield (numbers, reason) of each sample in order."""
         del options
         (cases,) = map(list, iterables)
-        named = [{**self._of, **{k: v.tolist() for k, v in case.items()}} for case in cases]
+        named: list[dict[str, object]] = [
+            {"answer": self._of, "changes": {k: v.tolist() for k, v in case.items()}}
+            for case in cases
+        ]
         kept = {k: self._store.get(one) for k, one in enumerate(named)} if self._store else {}
         waiting = {
             k: self._pool.submit(fn, case) for k, case in enumerate(cases) if kept.get(k) is None

@@ -7,9 +7,12 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 import xarray as xr
 
+from analytic import linear_modes
+from analytic.sensitivity import sampled
 from rotbeam_exu import SimulationError, load, sweep
 
 distributed = pytest.importorskip("distributed", reason="no Dask: install the extra cluster")
@@ -56,6 +59,13 @@ def executor(file):
     with distributed.Client(scheduler_file=file, timeout=5) as client:
         client.wait_for_workers(2, timeout=60)
         yield client.get_executor()
+
+
+def test_samples_are_the_same_as_here(beam, cluster):
+    answer, scatter = linear_modes(beam, 2.0, 2), {"EI3": 0.05}
+    with executor(cluster[0]) as workers:
+        found = sampled(answer, scatter, count=4, executor=workers)
+    np.testing.assert_array_equal(found, sampled(answer, scatter, count=4))
 
 
 def test_a_worker_that_dies_costs_no_case(beam, cluster, serial, tmp_path):

@@ -20,17 +20,17 @@ def test_workers_give_the_same_samples_and_keep_them(tmp_path, monkeypatch):
         with kept_workers(of, 2, 6, **how) as pool:
             return sampled(answer, SCATTER, count=6, executor=pool)
 
-    np.testing.assert_array_equal(once({"answer": 1}), alone)
+    np.testing.assert_array_equal(once({"EI3": 1.0}), alone)
     assert counted == [(k, 6) for k in range(1, 7)]
     files = sorted(tmp_path.glob("*.nc"))
     assert len(files) == 6
     files[0].unlink()  # as if it had been stopped
-    np.testing.assert_array_equal(once({"answer": 1}), alone)
+    np.testing.assert_array_equal(once({"EI3": 1.0}), alone)
     assert sorted(tmp_path.glob("*.nc")) == files
     monkeypatch.setattr(cases._Processes, "submit", lambda *_, **__: pytest.fail("solved again"))
-    np.testing.assert_array_equal(once({"answer": 1}), alone)
+    np.testing.assert_array_equal(once({"EI3": 1.0}), alone)
     with pytest.raises(pytest.fail.Exception, match="solved again"):
-        once({"answer": 2})
+        once({"EI3": 2.0})
 
 
 def test_a_sample_without_an_answer_stays_on_record(tmp_path):
