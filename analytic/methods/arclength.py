@@ -9,7 +9,7 @@ sign where another branch crosses (Keller 1977; Govaerts, 2000, Secs. 4 and 8).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import count
 from typing import Any, Protocol
@@ -21,8 +21,7 @@ from ..lazily import optimize
 from .newton import LARGE, Newton, NoOrbitError, Vector, by_products, factored, length, solved
 
 # Of the unknowns, which are of order 1.
-_NEWTON = Newton(converged=1e-12, stagnates=1e-9, slow=0.2, steps=15, largest=10.0)
-_OF_MANY = replace(_NEWTON, patient=True)  # whose tangents are dear
+_NEWTON = Newton(converged=1e-12, stagnates=1e-9, slow=0.2, steps=15, largest=10.0, patience=LARGE)
 _EASY, _HARD = 7, 11  # Newton steps that lengthen and shorten the next one
 _LARGEST_TURN = 0.9  # least cosine between the tangents of two points
 _HALVINGS = 12
@@ -99,13 +98,12 @@ def corrected(
         # Where coarse ones contract slowly exact ones follow.
         return factored(matrix(z, coarse=True) if many and next(made) == 0 else matrix(z))
 
-    newton = _OF_MANY if many else _NEWTON
-    root = newton.root(guess, residual, lambda z: (near(z), residual(z)), factors=factors)
+    root = _NEWTON.root(guess, residual, lambda z: (near(z), residual(z)), factors=factors)
     if root is None:
         raise NoOrbitError("Newton's method does not converge")
     # The last row of the matrix is `across`; times the length it is the tangent's, in sign.
     z, last = root.z, np.eye(1, guess.size, guess.size - 1)[0]
-    # Of many unknowns factors of this iteration do.
+    # For many unknowns the factors of this iteration are near enough.
     factors = near(z) if not many or root.factors is factors else root.factors
     tangent = _by_products(_differences(residual, z), factors, last) if many else None
     if tangent is None:

@@ -23,9 +23,15 @@ from .orbit import Orbit, S
 # Of the odd coordinates and of Ω; in the energies they count a 1000 times. Small orbits may
 # stagnate by the round-off of the mean.
 _NEWTON = Newton(
-    converged=4e-15, stagnates=1e-9, slow=0.4, steps=25, tangents=8, largest=1.0, broyden=True
+    converged=4e-15,
+    stagnates=1e-9,
+    slow=0.4,
+    steps=25,
+    tangents=8,
+    largest=1.0,
+    broyden=True,
+    patience=LARGE,
 )
-_OF_MANY = replace(_NEWTON, patient=True)  # whose tangents are dear
 _SAME_PEAK = 1e-8  # relative distance of peaks that are one
 _PEAKS = 3  # tried, where another becomes the highest
 _FINER_STEPS = 2  # after which a tenth of the change is left out, or less
@@ -158,9 +164,8 @@ def solve(guess: Orbit[S], amplitude: float, tangent: LastTangent | None = None)
 
     z = np.append(packed(guess.coefficients, parts), guess.frequency)
     others = factors = tangent.factors if tangent.fits(z.size) else None
-    newton = _OF_MANY if z.size > LARGE else _NEWTON
     for _ in range(_PEAKS):
-        root = newton.root(z, residual, linearized, size=size, factors=factors)
+        root = _NEWTON.root(z, residual, linearized, size=size, factors=factors)
         if root is None:
             break
         z, factors = root.z, root.factors

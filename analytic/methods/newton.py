@@ -55,7 +55,7 @@ class Newton:
     tangents: int = 100  # at most
     stagnates: float = 0.0  # size of changes that round-off no longer lets contract
     largest: float = np.inf  # size of a change that leads nowhere
-    patient: bool = False  # judge a new tangent from its second step on
+    patience: float = np.inf  # unknowns, from which on a new tangent is judged by two steps
     broyden: bool = False  # improve the steps of an old tangent by what those before tell of it
 
     def root(
@@ -92,7 +92,7 @@ class Newton:
                 if tangents > self.tangents:
                     return None
                 exact, steps = True, []
-                last = np.inf if self.patient else last
+                last = np.inf if z.size > self.patience else last
                 (factors, defect), anew = linearized(z), False
             else:
                 defect = residual(z)

@@ -48,7 +48,7 @@ class ForcedResponse(Branch):
     residual : ndarray (points,)
         Largest residual of the equations of motion, relative to the motion.
     error : float
-        What more functions change of the harmonics, over the amplitude: at the highest point, of a
+        Change of the harmonics on more functions, over the amplitude: at the highest point, of a
         table the largest along the curve. NaN of a part of it.
     marks : tuple of str
         Mark of each point: "asked" for; "fold" where the curve turns around and the response jumps;

@@ -50,28 +50,26 @@ def test_an_orbit_takes_the_functions_that_its_frequency_needs(beam, functions):
     assert np.all(error < 2.0 * found.frequency_error + 1e-12)
 
 
+UNCONFIRMED = pytest.mark.xfail(strict=True, reason="finer functions do not confirm this orbit")
+
+
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:internal resonance:analytic.input_checks.RotbeamWarning")
-def test_near_a_resonance_no_orbit_depends_on_the_functions():
-    """Where several orbits have one amplitude: 5e-4 lay between 16 functions and 24.
-
-    One that finer functions do not confirm has an infinite error.
-    """
+@pytest.mark.parametrize("amplitude", [0.35, pytest.param(0.4, marks=UNCONFIRMED)])
+def test_near_a_resonance_no_orbit_depends_on_the_functions(amplitude):
+    """Where several orbits have one amplitude: 5e-4 lay between 16 functions and 24."""
     blade = UNIT.with_hub_radius(5.0)
     found = []
     for functions in (20, 24):
         try:
             orbits = periodic_orbits(
-                blade, 8.0, [0.35, 0.4], theory=Theory(extension=False), functions=functions
+                blade, 8.0, [amplitude], theory=Theory(extension=False), functions=functions
             )
         except AmplitudeNotReachedError as beyond:
             orbits = beyond.part
-        known = np.isfinite(orbits.frequency_error)
-        assert known[0]
-        assert orbits.frequency_error[known].max() < 1e-9
-        found.append(np.where(known, orbits.frequency, np.nan)[:2])
-    both = np.isfinite(found[0]) & np.isfinite(found[1])
-    assert found[0][both] == pytest.approx(found[1][both], rel=2e-9)
+        assert orbits.frequency_error.max() < 1e-9
+        found.append(orbits.frequency)
+    assert found[0] == pytest.approx(found[1], rel=2e-9)
 
 
 def test_invariants(backbone):

@@ -140,6 +140,15 @@ def test_above_the_limit_all_orbits_grow_and_below_it_only_tongues_do(beam, stri
     assert f"{count} tongues below from a = {limit.tongues[0].low:.4g} on" in str(limit)
 
 
+@pytest.mark.slow
+@pytest.mark.xfail(strict=True, reason="the last tongue is two, with a window between them")
+def test_amid_all_tongues_orbits_grow(beam, strip_at_6):
+    """Of a sum resonance and a divergence, each narrow, the limit makes one tongue."""
+    inside = [0.5 * (one.low + one.high) for one in strip_at_6.tongues]
+    found = periodic_orbits(beam.with_shape(Rectangle()), 6.0, inside).out_of_plane()
+    assert not found.stable.any()
+
+
 @pytest.mark.slow  # test_limit_search has tongues on growths that are known
 @pytest.mark.filterwarnings("ignore:internal resonance")
 def test_a_tongue_in_the_range_is_no_limit(beam):
