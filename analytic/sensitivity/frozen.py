@@ -18,9 +18,10 @@ import numpy as np
 from ..arrays import FloatArray
 from ..blade import Blade
 from ..exact.continuum.basis import Masses, StrainFunctions, Strains
+from ..exact.continuum.discretization import Model
 from ..exact.continuum.loading import loaded
 from ..exact.continuum.planar_rotation import blade_continuum
-from ..exact.continuum.rotation import Model, SteadyBlade
+from ..exact.continuum.rotation import SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.unit import space_unit
 from ..load import Load

@@ -19,8 +19,9 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
+from ..exact.continuum.discretization import Model
 from ..exact.continuum.loading import unit_load
-from ..exact.continuum.rotation import Model, SteadyBlade
+from ..exact.continuum.rotation import SteadyBlade
 from ..exact.continuum.space import SpaceContinuum
 from ..exact.continuum.state import Driven
 from ..exact.linear.steady_state import SteadyState, steady_state

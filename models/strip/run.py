@@ -25,8 +25,8 @@ import numpy as np
 
 from analytic import Beam, Rectangle, SpinUp, Theory, linear_modes
 from analytic.arrays import FloatArray
+from analytic.exact.continuum.discretization import space_continuum
 from analytic.exact.continuum.planar_rotation import on_more
-from analytic.exact.continuum.rotation import space_continuum
 from analytic.exact.driven.transient import integrated
 from analytic.exact.linear.families import flap_shape
 from analytic.motion import SpeedChange

@@ -15,8 +15,8 @@ from analytic import Blade, SteadyRotation, linear_modes
 from analytic.arrays import FloatArray
 from analytic.blade_checks import require_planar, warn_if_rpm
 from analytic.exact.continuum.planar_kinematics import set_at
-from analytic.exact.continuum.rotation import require_bent
 from analytic.exact.continuum.state import BladeState
+from analytic.exact.driven.start import require_bent
 from analytic.exact.linear.steady_state import stretched_state
 from analytic.input_checks import points_of_beam
 from analytic.lazily import integrate, interpolate

@@ -18,7 +18,8 @@ from analytic import (
     steady_state,
 )
 from analytic.description import describe, from_description
-from analytic.exact.continuum.rotation import rotating_blade, space_continuum
+from analytic.exact.continuum.discretization import space_continuum
+from analytic.exact.continuum.rotation import rotating_blade
 from analytic.exact.continuum.state import Driven
 from tests.beams import finite_elements, told, unit_beam
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar, Self
@@ -13,127 +13,23 @@ from numpy.typing import NDArray
 
 from ...arrays import ComplexArray, FloatArray
 from ...blade import Blade
-from ...blade_checks import require_blade, require_steady_state
-from ...input_checks import finite_number
+from ...blade_checks import require_steady_state
 from ...loads import Load
 from ...methods.orbit import Orbit
 from ...methods.system import Tangent, reciprocal_modes
 from ...settled import refined
-from ...theory import Theory, require_theory
-from ...warning import warn
 from .answers import forces_caused
-from .basis import StrainFunctions
+from .discretization import Model
 from .equilibrium import Equilibrium
-from .loading import loaded, pushes
-from .planar import Continuum
-from .planar_rotation import on_more, require_shear, resolved_model
-from .space import SpaceContinuum
+from .loading import pushes
+from .planar_rotation import on_more
 from .state import Driven
-from .unit import space_unit
 
-FUNCTIONS = 12
-"""Functions for each curvature of bending, at least, on a blade without point masses."""
 GAUGES = {"lag": 1, "flap": 2}
 """Components of the tip's place whose peak may be called the amplitude."""
-Model = Continuum | SpaceContinuum
-_LARGEST_KICK = 0.1
-_STEEP = 0.5  # slope of fibers, whose square is left out
 _MODES = 6  # whose answers a refinement adds
 _INSTANTS = 64  # of a motion, by whose forces functions are made
 _MASSLESS = 1e-12  # 1/Ω of what has no inertia
-
-
-def space_continuum(
-    blade: Blade, theory: Theory, functions: int, loads: Sequence[Load] = ()
-) -> SpaceContinuum:
-    """Return the discretization by at least so many functions for each curvature."""
-    require_section(blade)
-    require_shear(blade, require_theory(theory))
-    if theory.engesser:
-        raise ValueError("Engesser's law of shear is known in the plane: leave engesser out")
-    unit = replace(space_unit(blade), loaded=loaded(loads, blade))
-    a_panel = max(4, math.ceil(functions / unit.panel_count))
-    model = SpaceContinuum(
-        StrainFunctions(
-            blade=unit,
-            theory=theory,
-            slenderness=blade.slenderness,
-            bending=a_panel,
-            torsion=a_panel,
-            axial=max(4, 5 * a_panel // 8),
-        )
-    )
-    _warn_if_steep(blade, model)
-    return model
-
-
-def _warn_if_steep(blade: Blade, model: SpaceContinuum) -> None:
-    """Warn of a twist so steep that its trapeze effect, which grows without bound, is none."""
-    strains = model.strains
-    fibers = np.abs(strains.twist) * np.sqrt(strains.trapeze)
-    if (steepest := float(fibers.max())) > _STEEP:
-        place = blade.length * float(model.points[fibers.argmax()])
-        warn(
-            f"at x = {place:.6g} m the twist is so steep that fibers at the radius of gyration "
-            f"slope by {steepest:.3g}: the trapeze effect of the twist holds for small slopes. "
-            "Where the twist steps take Theory(trapeze='elastic'), on the command line "
-            """--theory 'trapeze="elastic"'"""
-        )
-
-
-def leaves_plane(blade: Blade) -> bool:
-    """Whether flap, lag and torsion of a blade go together.
-
-    A setting angle mixes them where the stiffness out of the plane and in torsion is known.
-    """
-    require_blade(blade)
-    return not blade.is_planar or (blade.unit.angle != 0.0 and blade.section.knows_space)
-
-
-def continuum_of(
-    blade: Blade,
-    theory: Theory,
-    functions: int,
-    for_each: int,
-    *,
-    mode: int = 1,
-    axial: int | None = None,
-    loads: Sequence[Load] = (),
-    leaves: bool = False,
-) -> Model:
-    """Return the discretization: of the plane of bending, the quick way, where nothing leaves it.
-
-    There `functions` are those for the tangent's angle, which resolve the `mode`, elsewhere
-    `for_each` those for each curvature. A setting angle mixes flap, lag and torsion where the
-    stiffness out of the plane and in torsion is known.
-    """
-    require_blade(blade)
-    lifted = any(load.leaves_plane for load in loads)
-    if leaves_plane(blade) or leaves or lifted or blade.section.needs_space(require_theory(theory)):
-        return space_continuum(blade, theory, for_each, loads)
-    return resolved_model(blade, mode, theory, functions, axial, loaded(loads, blade))
-
-
-def require_bent(name: str, bent: float) -> float:
-    """Return a start out of the plane, over L; refuse one that is not small."""
-    if not abs(finite_number(name, bent)) <= _LARGEST_KICK:
-        raise ValueError(
-            f"{name} must be at most {_LARGEST_KICK:g} of the length, got {bent:g}: it is to be "
-            "small, 1e-6 say"
-        )
-    return float(bent)
-
-
-def require_section(blade: Blade) -> None:
-    """Refuse a blade whose stiffness out of the plane or in torsion is not known."""
-    if not blade.section.knows_space:
-        raise ValueError(
-            "twist, precone, prebend, sweep, offsets, a setting angle, tilted gravity, moments, "
-            "loads that follow sections or leave the plane, or a kick bend a blade out of its "
-            "plane and twist it: give its stiffness there by "
-            "blade.with_section_out_of_plane(bending_ratio, torsion_ratio), math.inf for a section "
-            "that does not twist"
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,7 +163,7 @@ class SteadyBlade:
         caused = self.model.forces_caused(q, q_dot, q_ddot, self.by(*drive))
         moved, mean = q - q.mean(axis=0), caused.mean(axis=2, keepdims=True)
         energy = float(np.sum(moved * (moved @ self.model.functions.stiffness), axis=1).max())
-        # The mean apart, beside which the forces of a small motion would be round-off.
+        # Apart from the mean: in a sum with it the forces of a small motion are round-off.
         motion = (caused - mean) / math.sqrt(energy or 1.0)
         return self.onto(np.concatenate((mean, motion), axis=2))
 

@@ -19,9 +19,10 @@ from ...methods.orbit_curve import RESPONSE_ERROR, Marked, response_curve
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ...warning import warn
+from ..continuum.discretization import continuum_of
 from ..continuum.loading import pushes, unit_load
 from ..continuum.planar import MOST_FUNCTIONS
-from ..continuum.rotation import SteadyBlade, continuum_of, rotating_blade
+from ..continuum.rotation import SteadyBlade, rotating_blade
 from ..continuum.state import Driven
 from ..linear.modes import driven_modes
 from .forced_orbits import ForcedResponse, ResponseNotReachedError

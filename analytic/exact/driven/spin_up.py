@@ -21,7 +21,8 @@ from ...settled import KNOWN, settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
 from ...warning import warn
-from ..continuum.rotation import SteadyBlade, continuum_of, finer_blades, rotating_blade
+from ..continuum.discretization import continuum_of
+from ..continuum.rotation import SteadyBlade, finer_blades, rotating_blade
 from ..continuum.state import Driven
 from .response import SpinUpResponse
 from .start import Start, checked_start, started

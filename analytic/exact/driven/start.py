@@ -13,14 +13,25 @@ from ...input_checks import finite_number
 from ...loads import Load
 from ...motion import SteadyRotation, require_ramp
 from ..continuum.loading import unit_load
-from ..continuum.rotation import require_bent, rotating_blade
+from ..continuum.rotation import rotating_blade
 from ..continuum.state import BladeState
 from ..continuum.vectors import rotation_vectors
 from ..linear.families import flap_shape
 
 Start = str | Callable[[FloatArray], BladeState]
+_LARGEST_KICK = 0.1
 _CHANGES, _EXACT = 20, 1e-13  # of Newton's method
 _OFF = 1e-3  # place over the length and angle, from which on a state is none of the blade
+
+
+def require_bent(name: str, bent: float) -> float:
+    """Return a start out of the plane, over L; refuse one that is not small."""
+    if not abs(finite_number(name, bent)) <= _LARGEST_KICK:
+        raise ValueError(
+            f"{name} must be at most {_LARGEST_KICK:g} of the length, got {bent:g}: it is to be "
+            "small, 1e-6 say"
+        )
+    return float(bent)
 
 
 def checked_start(

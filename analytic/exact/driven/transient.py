@@ -17,8 +17,8 @@ from ...methods.collocation import OWN_TANGENT, Collocation, Linearization, Resi
 from ...methods.newton import Newton, Root
 from ...methods.system import Tangent
 from ...motion import Rotation
+from ..continuum.discretization import Model
 from ..continuum.loading import pushes, unit_load
-from ..continuum.rotation import Model
 from ..continuum.state import Driven
 from .steps import STAGES, Steps
 

@@ -11,7 +11,8 @@ from ...blade_checks import require_undamped, warn_if_rpm
 from ...input_checks import peak_deflection, rotation_speed, whole_number
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
-from ..continuum.rotation import GAUGES, continuum_of
+from ..continuum.discretization import continuum_of
+from ..continuum.rotation import GAUGES
 from ..linear.modes import mode_name
 from .branches import BackboneBranch, followed_branch
 from .curve import BackboneCurve, settled_curve

@@ -31,7 +31,8 @@ from ...methods.orbit import Orbit
 from ...methods.orbit_curve import At, OrbitCurve
 from ...plotting import axes_or_new, draw_response
 from ...settled import settled
-from ..continuum.rotation import BladeOrbit, SteadyBlade, rotating_blade, space_continuum
+from ..continuum.discretization import space_continuum
+from ..continuum.rotation import BladeOrbit, SteadyBlade, rotating_blade
 from .branch import Branch, SpecialPoint
 from .path import ModePath
 

@@ -23,7 +23,8 @@ from ...methods.newton import NoOrbitError
 from ...methods.orbit import Orbit
 from ...theory import BERNOULLI_EULER, Theory
 from ...warning import PartialError
-from ..continuum.rotation import Model, SteadyBlade, rotating_blade
+from ..continuum.discretization import Model
+from ..continuum.rotation import SteadyBlade, rotating_blade
 from ..linear.families import modes_of, orbit_shapes
 
 _LONGEST_STEP = 0.1  # of |q|/L from one orbit to the next

@@ -15,7 +15,8 @@ from ...blade import Blade
 from ...input_checks import points_of_beam
 from ...plotting import DASHES, axes_or_new
 from ...theory import Theory
-from ..continuum.rotation import GAUGES, Model, SteadyBlade
+from ..continuum.discretization import Model
+from ..continuum.rotation import GAUGES, SteadyBlade
 from ..continuum.space import SpaceContinuum
 
 if TYPE_CHECKING:

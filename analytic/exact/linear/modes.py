@@ -13,14 +13,8 @@ from ...input_checks import rotation_speed, shown, whole_number
 from ...settled import require_tolerance, settled
 from ...theory import BERNOULLI_EULER, Theory, require_theory
 from ...threads import one_thread
-from ..continuum.rotation import (
-    FUNCTIONS,
-    SteadyBlade,
-    continuum_of,
-    finer_blades,
-    leaves_plane,
-    rotating_blade,
-)
+from ..continuum.discretization import FUNCTIONS, continuum_of, leaves_plane
+from ..continuum.rotation import SteadyBlade, finer_blades, rotating_blade
 from .families import FAMILIES, Family, LinearModes, mode_names, modes_of, places_of
 
 _WHOLE = 1.25  # times the last change is an error that falls by 5 or more each time

@@ -20,9 +20,10 @@ from ...loads import Load, loads_at_once
 from ...settled import require_tolerance, settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..continuum.discretization import FUNCTIONS
+from ..continuum.discretization import space_continuum as continuum
 from ..continuum.loading import unit_load
-from ..continuum.rotation import FUNCTIONS, SteadyBlade, finer_blades, rotating_blade
-from ..continuum.rotation import space_continuum as continuum
+from ..continuum.rotation import SteadyBlade, finer_blades, rotating_blade
 from ..continuum.state import Driven
 
 OUTPUTS = tuple(f"{kind}_{axis}" for kind in ("place", "turn", "force", "moment") for axis in "xyz")

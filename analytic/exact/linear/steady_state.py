@@ -17,15 +17,9 @@ from ...loads import Gravity, Load, PointLoad, loads_at_once
 from ...settled import require_tolerance, settled
 from ...theory import BERNOULLI_EULER, Theory
 from ...threads import one_thread
+from ..continuum.discretization import FUNCTIONS, continuum_of, space_continuum
 from ..continuum.loading import unit_load
-from ..continuum.rotation import (
-    FUNCTIONS,
-    SteadyBlade,
-    continuum_of,
-    finer_blades,
-    rotating_blade,
-    space_continuum,
-)
+from ..continuum.rotation import SteadyBlade, finer_blades, rotating_blade
 from ..continuum.state import BladeState, SectionLoads, flap_of_kick, in_newtons, state_of
 
 

@@ -8,7 +8,8 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicSpline
 
 from analytic import Theory, linear_modes
-from analytic.exact.continuum.rotation import rotating_blade, space_continuum
+from analytic.exact.continuum.discretization import space_continuum
+from analytic.exact.continuum.rotation import rotating_blade
 from analytic.exact.continuum.unit import space_unit
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import finite_elements

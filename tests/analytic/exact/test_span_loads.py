@@ -22,8 +22,8 @@ from analytic import (
     spin_up_response,
     steady_state,
 )
+from analytic.exact.continuum.discretization import space_continuum
 from analytic.exact.continuum.loading import pushes, unit_load
-from analytic.exact.continuum.rotation import space_continuum
 from analytic.exact.continuum.state import Driven
 from tests.beams import unit_beam
 

@@ -15,7 +15,8 @@ from analytic import (
     periodic_orbits,
     steady_state,
 )
-from analytic.exact.continuum.rotation import rotating_blade, space_continuum
+from analytic.exact.continuum.discretization import space_continuum
+from analytic.exact.continuum.rotation import rotating_blade
 from analytic.exact.linear.families import modes_of, orbit_shapes
 from tests.beams import told, unit_beam
 

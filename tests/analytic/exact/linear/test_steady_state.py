@@ -9,7 +9,8 @@ import pytest
 from scipy.interpolate import make_interp_spline
 
 from analytic import Beam, PointLoad, RotbeamWarning, Theory, steady_state
-from analytic.exact.continuum.rotation import rotating_blade, space_continuum
+from analytic.exact.continuum.discretization import space_continuum
+from analytic.exact.continuum.rotation import rotating_blade
 from analytic.exact.continuum.space import SpaceContinuum
 from rotbeam_exu.files.beam_file import load_beam
 from tests.beams import unit_beam

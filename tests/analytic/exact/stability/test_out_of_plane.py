@@ -19,8 +19,9 @@ from analytic import (
     linear_modes,
     periodic_orbits,
 )
+from analytic.exact.continuum.discretization import space_continuum
 from analytic.exact.continuum.planar_rotation import blade_continuum
-from analytic.exact.continuum.rotation import SteadyBlade, rotating_blade, space_continuum
+from analytic.exact.continuum.rotation import SteadyBlade, rotating_blade
 from analytic.exact.driven.forced import DrivenBlade
 from analytic.exact.stability.growth import STEPS, grown
 from analytic.exact.stability.out_of_plane import FlapTorsion, OutOfPlaneMotion, with_points_for
