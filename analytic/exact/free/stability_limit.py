@@ -27,7 +27,9 @@ _CONVERGED = 0.01  # of the limit, as half as many functions and steps again tel
 
 @dataclass(frozen=True, kw_only=True)
 class Tongue:
-    """An interval of amplitudes below the limit whose orbits leave the plane.
+    """An interval of amplitudes below the limit whose orbits leave the plane in one way.
+
+    Neighbors that grow in another way are another tongue: between them orbits may stay.
 
     Attributes
     ----------
@@ -249,10 +251,10 @@ def _bisected(orbits: PlanarOrbits, low: float, high: float, least: float) -> fl
 def _tongues(
     orbits: PlanarOrbits, growths: dict[float, Growth], limit: float
 ) -> tuple[Tongue, ...]:
-    """Return the intervals that grow; with damping their ends are bisected."""
+    """Return the intervals that grow in one way; with damping their ends are bisected."""
     tongues, around = [], [0.0, *growths, limit]
-    for unstable, run in groupby(growths.items(), key=lambda item: item[1].unstable):
-        if unstable:
+    for kind, run in groupby(growths.items(), key=lambda item: item[1].unstable and item[1].kind):
+        if kind:
             amplitudes, grown = zip(*run, strict=True)
             most = max(grown, key=lambda one: one.exponent)
             low, high = amplitudes[0], amplitudes[-1]
@@ -261,6 +263,6 @@ def _tongues(
                 low = _bisected(orbits, before, low, 0.0) if before else low
                 high = _bisected(orbits, after, high, 0.0) if math.isfinite(after) else high
             tongues.append(
-                Tongue(low=low, high=high, growth=most.per_radian, kind=most.kind, modes=most.modes)
+                Tongue(low=low, high=high, growth=most.per_radian, kind=kind, modes=most.modes)
             )
     return tuple(tongues)

@@ -26,7 +26,10 @@ class Orbits:
             raise NoOrbitError("none")
         self.asked.append((amplitude, finer))
         exponent = 2.0 * np.pi * self.per_radian(amplitude, finer)
-        return Growth(exponent, np.ones(8, complex), f"kind {amplitude:.3f}", ("flap 1",))
+        return Growth(exponent, np.ones(8, complex), self.kind(amplitude), (f"at {amplitude:.3f}",))
+
+    def kind(self, amplitude):
+        return "divergence"
 
 
 def ramp(a, finer, start=0.2, slope=0.1):
@@ -40,12 +43,12 @@ def test_the_limit_is_where_growth_stays():
     assert found.amplitude == pytest.approx(0.3, rel=1e-4)
     assert found.amplitude >= 0.3
     assert (found.searched, found.growth, found.converged) == (0.6, 0.01, True)
-    assert found.kind == f"kind {found.amplitude:.3f}"
+    assert (found.kind, found.modes) == ("divergence", (f"at {found.amplitude:.3f}",))
     # What grows below the limit, however slowly, is a tongue: from 0.2 on, to the limit.
     (tongue,) = found.tongues
     assert (tongue.low, tongue.high) == (pytest.approx(0.2, rel=0.02), pytest.approx(0.3, rel=3e-3))
     assert tongue.growth == pytest.approx(0.01, rel=0.02)
-    assert tongue.kind == f"kind {tongue.high:.3f}"
+    assert (tongue.kind, tongue.modes) == ("divergence", (f"at {tongue.high:.3f}",))
     amplitudes = np.array(sorted({a for a, _ in orbits.asked}))
     # Steps of 2 %, of 5 % where it grows ten times as fast.
     assert np.diff(np.log(amplitudes)).max() <= math.log(1.0201)
@@ -120,7 +123,15 @@ def test_tongues_are_apart_and_the_strongest_names_each():
     for one, middle in zip(found, (0.035, 0.125, None), strict=False):
         if middle:
             assert one.growth == pytest.approx(0.001, rel=0.2)
-            assert float(one.kind.split()[1]) == pytest.approx(middle, rel=0.03)
+            assert float(one.modes[0].split()[1]) == pytest.approx(middle, rel=0.03)
+
+
+def test_neighbors_that_grow_in_two_ways_are_two_tongues():
+    orbits = Orbits(lambda a, finer: 0.005 if 0.1 < a < 0.15 else ramp(a, finer))
+    orbits.kind = lambda a: "sum resonance" if a < 0.12 else "divergence"
+    found = _limit(orbits, 0.01, 0.6).tongues
+    assert [one.kind for one in found] == ["sum resonance", "divergence", "divergence"]
+    assert [one.high for one in found] == pytest.approx([0.12, 0.15, 0.3], rel=0.021)
 
 
 @pytest.mark.parametrize(
