@@ -46,6 +46,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
+    "sphinx_reredirects",
     "sphinxcontrib.bibtex",
 ]
 exclude_patterns = ["_build", "_ext", "_static", "gallery/*.py", "gallery/*.ipynb"]
@@ -110,6 +111,33 @@ sphinx_gallery_conf = {
     "reset_modules": ("matplotlib",),
 }
 
+# Old addresses lead on: pages that have become a part of another.
+redirects = {
+    "conventions": "scope.html#conventions",
+    "faq": "gotchas.html#questions",
+    "howto/fit": "sensitivity.html#which-blade-fits-a-measurement",
+    "howto/index": "../index.html",
+    "howto/judge_report": "judge.html#the-outcomes",
+    "howto/paper_figures": "../theory/errata.html#draw-the-figures",
+    "howto/quiet_spin_up": "../theory/spin_up.html",
+    "howto/sweeps": "files.html#many-runs",
+    "published": "codes.html#published-cases",
+    "theory/backbone_curve": "harmonic_balance.html#the-curve-as-a-series",
+    "theory/blade": "continuum.html#hub-taper-point-masses",
+    "theory/comparison": "errata.html#figures-14-and-15",
+    "theory/consistency": "reduced.html#consistent-foreshortening-frc",
+    "theory/coriolis": "reduced.html#the-coriolis-coupling-frm",
+    "theory/derivatives": "../howto/sensitivity.html#the-method",
+    "theory/errata_proofs": "errata.html#proofs",
+    "theory/extensible": "reduced.html#the-elongation-section-4",
+    "theory/forced_response": "../howto/forced_response.html#the-method",
+    "theory/index": "errata.html#from-the-paper-to-the-code",
+    "theory/inextensible": "reduced.html#one-coordinate-section-3",
+    "theory/out_of_plane": "planar.html",
+    "theory/rotating_mode": "reduced.html#the-rotating-mode-section-5",
+    "theory/space": "continuum.html#the-blade-in-space",
+}
+
 html_theme = "pydata_sphinx_theme"
 html_title = "rotbeam_exu"
 html_static_path = ["_static", "images/film.png"]
@@ -121,8 +149,7 @@ html_show_sphinx = False
 html_copy_source = False
 html_sidebars = dict.fromkeys(
     (
-        *("index", "start", "findings", "explorer", "validation", "codes"),
-        *("scope", "conventions", "gotchas", "faq", "bibliography", "licenses"),
+        *("index", "start", "bibliography", "licenses", "theory/errata"),
     ),
     (),
 )
@@ -130,7 +157,7 @@ html_theme_options = {
     "navigation_with_keys": True,
     "navbar_end": ["theme-switcher"],
     "show_toc_level": 2,
-    "header_links_before_dropdown": 8,
+    "header_links_before_dropdown": 10,
     "navbar_persistent": ["search-button"],
     "footer_start": ["version"],
     "footer_end": [],

@@ -22,9 +22,8 @@ MOST_AT_THE_DOOR = 30
 _DOOR = (
     *("README.md", "docs/index.md", "docs/start.md", "docs/findings.md", "docs/explorer.md"),
     *("docs/class/index.md", "docs/class/ten_steps.md", "docs/codes.md", "docs/howto/own_beam.md"),
-    *("docs/howto/real_blade.md", "docs/howto/section_loads.md", "docs/howto/quiet_spin_up.md"),
-    *("docs/howto/kit.md", "docs/howto/judge.md", "docs/howto/judge_report.md"),
-    "docs/howto/own_element.md",
+    *("docs/howto/real_blade.md", "docs/howto/section_loads.md"),
+    *("docs/howto/kit.md", "docs/howto/judge.md", "docs/howto/own_element.md"),
 )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import builtins
 import contextlib
 import io
 import re
@@ -27,6 +29,20 @@ def fenced(markdown: str) -> Iterator[Block]:
     for match in FENCE.finditer(markdown):
         text = re.sub(r"\A(:\w+:.*\n)+\n?", "", match[2])
         yield Block(match[1], text, markdown.count("\n", 0, match.start(2)) + 1)
+
+
+def continues(text: str) -> bool:
+    """Return whether a block takes names from the blocks above it."""
+    names = [one for one in ast.walk(ast.parse(text)) if isinstance(one, ast.Name)]
+    own = {one.id for one in names if not isinstance(one.ctx, ast.Load)} | set(dir(builtins))
+    for one in ast.walk(ast.parse(text)):
+        if isinstance(one, ast.alias):
+            own.add((one.asname or one.name).partition(".")[0])
+        elif isinstance(one, ast.FunctionDef | ast.ClassDef):
+            own.add(one.name)
+        elif isinstance(one, ast.arg):
+            own.add(one.arg)
+    return not {one.id for one in names} <= own
 
 
 def table(header: Iterable[object], rows: Iterable[Iterable[object]]) -> None:

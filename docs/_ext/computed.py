@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
-from blocks import names, printed
+from blocks import continues, names, printed
 from docutils import nodes
 from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
@@ -47,8 +47,20 @@ class Computed(SphinxDirective):
         return [code, result] if output else [code]
 
 
+def mark_what_continues(app: Sphinx, tree: nodes.document) -> None:
+    """Say above a block of Python that a reader needs the blocks before it, too."""
+    docname = app.env.docname
+    if docname.startswith(("reference/", "gallery/")):
+        return
+    for block in list(tree.findall(nodes.literal_block)):
+        if block.get("language") == "python" and continues(block.astext()):
+            note = nodes.paragraph("", "Continues the code above:", classes=["continues"])
+            block.parent.insert(block.parent.index(block), note)
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register the directive."""
     app.add_config_value("computed_runs", True, "env")  # whether the site computes anything
     app.add_directive("computed", Computed)
+    app.connect("doctree-read", mark_what_continues)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

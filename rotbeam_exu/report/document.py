@@ -1,4 +1,4 @@
-"""A judgment as a JSON document; docs/howto/judge_report.md says what each key means."""
+"""A judgment as a JSON document; docs/howto/judge.md says what each key means."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ def test_a_real_blade_needs_no_more_functions_than_a_uniform_one(nrel):
     exact = linear_modes(nrel, 1.267, 1, theory=Theory(extension=False), functions=60).frequencies
     six = resolved_model(nrel, 1, Theory(extension=False), 6)
     found = rotating_blade(nrel, 1.267, six).vibration[0][:1] * nrel.frequency_scale
-    # As docs/theory/blade.md says.
+    # As docs/theory/continuum.md says.
     assert found == pytest.approx(exact, rel=2e-8)
     # Half of 24 functions' frequencies, as the docstring promises.
     uniform = linear_modes(nrel, 0.0, 12, theory=Theory(extension=False), functions=60).frequencies

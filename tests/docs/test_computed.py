@@ -26,6 +26,13 @@ def test_blocks_share_their_names_and_print_tables(tmp_path):
     assert table == "| x | \\|y\\| |\n| --- | --- |\n| 2 | 4 |\n"
 
 
+def test_a_block_that_takes_names_from_others_continues_them():
+    alone = "import numpy as np\nfrom a.b import c as d\n\n\ndef f(x):\n    return np.sin(x) + d\n"
+    assert not blocks.continues(alone + "print([f(y) for y in range(3)])\n")
+    assert blocks.continues(alone + "print(f(beam))\n")
+    assert blocks.continues("beam = beam.with_twist(0.1)\nprint(beams)\n")
+
+
 def test_a_warning_in_a_block_is_an_error(tmp_path):
     with pytest.raises(UserWarning, match="careful"):
         blocks.printed("import warnings; warnings.warn('careful')", blocks.names(tmp_path), "here")
@@ -52,6 +59,7 @@ def test_the_directive_inserts_what_is_printed_and_names_a_block_that_fails(tmp_
         assert "<strong>42</strong>" in html
         assert '<span class="mi">1</span>' in html
         assert ">7\n" in html
+        assert html.count("Continues the code above:") == 1
         page.write_text("# Page\n\n```{computed}\n1 / 0\n```\n")
         app.config.computed_runs = False
         app.build()

@@ -150,7 +150,7 @@ def test_the_document_is_json_and_says_all(right):
 
 
 def test_every_key_of_the_document_is_documented(right):
-    text = (Path(__file__).parents[2] / "docs" / "howto" / "judge_report.md").read_text("utf-8")
+    text = (Path(__file__).parents[2] / "docs" / "howto" / "judge.md").read_text("utf-8")
     documented = set(re.findall(r"`(\w+)`", text))
 
     def keys(value):

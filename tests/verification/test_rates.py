@@ -159,7 +159,7 @@ def shares(kind, runs, count=400):
 
 @pytest.mark.slow
 def test_the_page_has_the_coverage_that_is_measured():
-    text = (PAGES / "judge_report.md").read_text(encoding="utf-8")
+    text = (PAGES / "judge.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| ([\d, ]+?)(; [^|]*)? \| (\d.* %) \|$", text, re.MULTILINE)
     assert len(rows) == 5
     for meshes, steps, cells in rows:
@@ -210,7 +210,7 @@ def others(kind, order, declared, off=0.0, count=400):
 
 @pytest.mark.slow
 def test_the_page_has_how_many_right_codes_stay_undecided():
-    text = (PAGES / "judge_report.md").read_text(encoding="utf-8")
+    text = (PAGES / "judge.md").read_text(encoding="utf-8")
     row = r"^\| ([a-z ,]+) \| (\d+ % \| \d+ %) \|$"
     rows = dict(re.findall(row, text, re.MULTILINE))
     assert rows.keys() == OTHERS.keys()

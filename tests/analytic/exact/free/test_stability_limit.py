@@ -71,7 +71,7 @@ def test_where_rectangles_leave_the_plane(beam, omega, ratio, first, steps):
 
 
 def test_the_pages_state_these_limits():
-    page = (ROOT / "docs" / "theory" / "out_of_plane.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "theory" / "planar.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| ([2468]) \|(.*)\|$", page, re.MULTILINE)
     ratios = (2.0, 3.0, 6.0, 18.5)
     for omega, cells in rows:
