@@ -148,9 +148,7 @@ html_css_files = ["site.css"]
 html_show_sphinx = False
 html_copy_source = False
 html_sidebars = dict.fromkeys(
-    (
-        *("index", "start", "bibliography", "licenses", "theory/errata"),
-    ),
+    (*("index", "start", "bibliography", "licenses", "theory/errata"),),
     (),
 )
 html_theme_options = {

@@ -153,7 +153,8 @@ def test_flap_softens_at_a_lower_speed_than_lag(beam, angle, zero):
 
 
 def test_where_twice_the_flap_frequency_is_that_of_lag():
-    assert says("theory/continuum.md", r"at $\bar\omega=1.441$, with lag's $EI$, if it is a sixteenth")
+    words = r"at $\bar\omega=1.441$, with lag's $EI$, if it is a sixteenth"
+    assert says("theory/continuum.md", words)
     section = Section(axial_stiffness=1e9, bending_stiffness=1.0, mass_per_length=1.0)
     blade = Blade(length=1.0, section=section).with_section_out_of_plane(1.0 / 16.0, math.inf)
 
