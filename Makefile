@@ -11,7 +11,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # Tests are compiled once, not again by each worker and child.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run figures images golden references codes test test-all test-oldest coverage bench lint docs docs-draft check-site check clean
+.PHONY: run figures images golden references codes test test-all test-oldest coverage bench lint pages docs docs-draft check-site check clean
 
 run: $(VENV)/.run  ## the main job: spin the paper's beam up
 	$(BIN)/python models/rotating_beam.py
@@ -59,6 +59,9 @@ lint: $(VENV)/.dev  ## linters and type checks
 
 docs: $(VENV)/.docs  ## the site, in docs/_build/html; a warning is an error
 	$(BIN)/python -m sphinx -j auto -E -W --keep-going -q -d docs/_build/doctrees docs docs/_build/html
+
+pages: $(VENV)/.docs  ## what the pages' hidden code prints, written into the pages: as long as docs
+	$(BIN)/python -m sphinx -j auto -E -q -D fill_pages=1 -D plot_gallery=0 -d docs/_build/draft-doctrees docs docs/_build/draft
 
 docs-draft: $(VENV)/.docs  ## text, links and formulas of the site, in docs/_build/draft: half a minute
 	$(BIN)/python -m sphinx -j auto -q -D computed_runs=0 -D plot_gallery=0 -d docs/_build/draft-doctrees docs docs/_build/draft

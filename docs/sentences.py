@@ -29,6 +29,7 @@ _DOOR = (
 
 def prose(text: str) -> list[str]:
     """Return the paragraphs of a page, without code, tables, headings and formulas."""
+    text = re.sub(r"^<!-- computed\n.*?^<!-- until here -->$", "", text, flags=re.M | re.S)
     text = re.sub(r"^( *)(```+|~~~+).*?^\1\2 *$", "\n", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"\$\$.*?\$\$", "\n\n", text, flags=re.DOTALL)
     text = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)

@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT))
 
-from docs._ext.blocks import FENCE, printed  # noqa: E402
+from docs._ext.blocks import FENCE, printed, with_directives  # noqa: E402
 
 PAGE = ROOT / "docs" / "class" / "index.md"
 NOTEBOOK = PAGE.with_name("stiffening.ipynb")
@@ -65,7 +65,7 @@ def _prose(text: str) -> str:
 
 def cells() -> list[tuple[str, str]]:
     """Return the notebook's cells as (kind, source)."""
-    page, found = PAGE.read_text(encoding="utf-8"), [("code", HELPERS)]
+    page, found = with_directives(PAGE.read_text(encoding="utf-8")), [("code", HELPERS)]
     last = 0
     for block in FENCE.finditer(page):
         if not block[1].startswith("{"):

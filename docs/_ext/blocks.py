@@ -14,6 +14,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 FENCE = re.compile(r"^```(\S+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_HIDDEN = re.compile(
+    r"^<!-- computed\n(.*?)^-->\n(.*?)^<!-- until here -->$", re.MULTILINE | re.DOTALL
+)
+"""Code that a reader of the Markdown does not see, and what it printed."""
 
 
 class Block(NamedTuple):
@@ -24,9 +28,40 @@ class Block(NamedTuple):
     line: int
 
 
+def with_directives(markdown: str) -> str:
+    """Return a page with the directive ``computed`` for hidden code and what it printed."""
+
+    def directive(match: re.Match[str]) -> str:
+        block = f"```{{computed}}\n{match[1]}```"
+        return block + "\n" * (match[0].count("\n") - block.count("\n"))
+
+    return _HIDDEN.sub(directive, markdown)
+
+
+def _viewable(output: str) -> str:
+    """Return printed Markdown for viewers that know neither figures nor films of the site."""
+    text = re.sub(
+        r"^```\{figure\}.*?\n\n(.*?)\n```$", r"*Figure, on the site: \1*", output.strip(),
+        flags=re.MULTILINE | re.DOTALL,
+    )  # fmt: skip
+    text = re.sub(r"<(?:video|img) .*", "*A film, on the site.*", text)
+    return re.sub(r"^:::+.*\n?", "", text, flags=re.MULTILINE)
+
+
+def refilled(markdown: str, outputs: Iterable[str]) -> str:
+    """Return a page whose hidden code has printed these outputs."""
+    each = iter(outputs)
+    return _HIDDEN.sub(
+        lambda match: (
+            f"<!-- computed\n{match[1]}-->\n\n{_viewable(next(each))}\n\n<!-- until here -->"
+        ),
+        markdown,
+    )
+
+
 def fenced(markdown: str) -> Iterator[Block]:
-    """Yield the fenced blocks of a page, ``{computed}`` ones included."""
-    for match in FENCE.finditer(markdown):
+    """Yield the fenced blocks of a page, ``{computed}`` ones and hidden code included."""
+    for match in FENCE.finditer(with_directives(markdown)):
         text = re.sub(r"\A(:\w+:.*\n)+\n?", "", match[2])
         yield Block(match[1], text, markdown.count("\n", 0, match.start(2)) + 1)
 
