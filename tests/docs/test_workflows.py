@@ -40,7 +40,12 @@ def test_the_right_to_publish_runs_no_code(file):
     assert re.search(r"^permissions: \{ contents: read \}$", whole, re.MULTILINE)
     for name, job in jobs_of(text).items():
         rights = re.findall(r"[\w-]+: *write", job)
-        if rights:
+        if name == "attach":
+            assert rights == ["contents: write"]
+            (command,) = re.findall(r"\brun: (.*)", job)
+            assert command.startswith('gh release create "$GITHUB_REF_NAME" explorer.html ')
+            assert re.findall(r"\buses: *([\w./-]+)@", job) == ["actions/download-artifact"]
+        elif rights:
             pages = ["pages: write"] if file.name == "site.yml" else []
             assert (name, rights) == ("publish", [*pages, "id-token: write"])
             assert re.findall(r"\buses: *([\w./-]+)@", job) == PUBLISHED[file.name]
@@ -49,8 +54,8 @@ def test_the_right_to_publish_runs_no_code(file):
 
 def test_a_release_is_built_from_files_whose_hashes_are_known():
     jobs = jobs_of((ROOT / ".github/workflows/release.yml").read_text(encoding="utf-8"))
-    assert list(jobs) == ["test", "build", "publish"]
-    for before, after in pairwise(jobs):
+    assert list(jobs) == ["test", "build", "publish", "explorer", "attach"]
+    for before, after in pairwise(list(jobs)[:3]):
         assert f"needs: {before}\n" in jobs[after]
     ran = re.findall(r"\brun: (.*)", jobs["build"])
     (install, build) = ran
