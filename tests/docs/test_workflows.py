@@ -5,6 +5,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / ".github" / "workflows").glob("*.y*ml"))
@@ -21,6 +22,12 @@ def jobs_of(text):
     heads = [*re.finditer(r"^  ([\w-]+):\n", jobs, re.MULTILINE)]
     ends = [head.start() for head in heads[1:]] + [len(jobs)]
     return {head[1]: jobs[head.end() : end] for head, end in zip(heads, ends, strict=True)}
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
+def test_the_host_can_read_it(file):
+    text = file.read_text(encoding="utf-8")
+    assert list(yaml.safe_load(text)["jobs"]) == list(jobs_of(text))
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
@@ -57,7 +64,7 @@ def test_a_release_is_built_from_files_whose_hashes_are_known():
     assert list(jobs) == ["test", "build", "publish", "explorer", "attach"]
     for before, after in pairwise(list(jobs)[:3]):
         assert f"needs: {before}\n" in jobs[after]
-    ran = re.findall(r"\brun: (.*)", jobs["build"])
+    ran = re.findall(r"\brun: \"?([^\"\n]*)", jobs["build"])
     (install, build) = ran
     assert install.split()[-2:] == ["-r", HASHED.relative_to(ROOT).as_posix()]
     assert "--require-hashes" in install
