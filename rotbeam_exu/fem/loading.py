@@ -101,7 +101,9 @@ class Loading:
         of_length = sparse.csr_array(mass.shape)
         if external or any(onto == "length" for _, onto in forces):
             section = blade.section.of_unit_mass()
-            light = replace(blade.with_section(section), point_masses=())
+            # Without mass, point masses keep their nodes.
+            weightless = [replace(one, mass=0.0, inertia=0.0) for one in blade.point_masses]
+            light = replace(blade.with_section(section), point_masses=tuple(weightless))
             of_length = mass_matrix(model, light, elements)
         at_tip = sparse.diags_array(np.repeat([0.0, 1.0], [size - per_node, per_node]))
         acted_on = {"mass": mass, "length": of_length, "tip": at_tip}

@@ -77,8 +77,18 @@ def in_space(blade, **options):
         (in_space(STRIP, frame="rotating"), "frame='inertial'"),
         (in_space(BEAM), r"with_section_out_of_plane\(bending_ratio"),
         (in_space(STRIP.with_section_out_of_plane(1.0, math.inf)), "element='space_cable'"),
-        (in_space(STRIP.with_tip_mass(0.5)), "an element of the plane, or analytic.spin_up"),
-        (in_space(STRIP.with_tip_mass(0.5).with_twist(0.1)), "masses: take analytic.spin_up_resp"),
+        (
+            in_space(STRIP.with_tip_mass(0.5, inertia=0.1)),
+            "at 8 m has an inertia of 0.1 .*: take an element of the plane, or analytic.spin_up",
+        ),
+        (
+            in_space(STRIP.with_point_mass(0.5, 3.0, offset=(0.03, 0.04))),
+            "at 3 m is 0.05 m from there: take analytic.spin_up_resp",
+        ),
+        (
+            in_space(STRIP.with_offsets(mass=(0.01, 0.0)).with_tip_mass(0.5)),
+            "at 8 m is 0.01 m from there: take analytic.spin_up_resp",
+        ),
         ({"blade": STRIP.with_twist(0.1)}, "take element='space_exact'"),
         ({"blade": STRIP.with_tip_mass(0.5).with_twist(0.1)}, "take analytic.spin_up_response"),
         ({"blade": STRIP.with_kink(4.0, 0.1)}, "kink or offset: take element='space_exact'"),

@@ -5,7 +5,7 @@ import pytest
 
 from analytic import Beam, Blade, Section, Theory, linear_modes
 from rotbeam_exu import natural_frequencies
-from rotbeam_exu.fem.elements import FORMULATIONS, Exact
+from rotbeam_exu.fem.elements import FORMULATIONS, Exact, SpaceCable
 from rotbeam_exu.fem.mesh import Mesh
 
 BEAM = Beam.reference()
@@ -33,8 +33,9 @@ CASES = {
     f"{kind}, {one.name}, {one.order:g}": (blade, one)
     for kind, blade in (("step", STEP), ("mass", BEAM.with_point_mass(0.5, 3.3)))
     for one in ELEMENTS
-    if kind == "step" or not one.leaves_plane  # these carry no point masses
+    if kind == "step" or not one.leaves_plane
 }
+CASES["mass, space_cable"] = (BEAM.with_point_mass(0.5, 3.0), SpaceCable())
 
 
 @pytest.mark.parametrize(("blade", "element"), CASES.values(), ids=CASES)

@@ -19,7 +19,7 @@ from ..lazily import exudyn, items
 from ..mesh import Mesh, shapes
 from .energy_body import add_point_masses
 from .formulation import Chain, Formulation, rate_of
-from .node_kinds import SlopeNodes, SpaceSlopeNodes, require_bare
+from .node_kinds import SlopeNodes, SpaceSlopeNodes, require_light
 
 _LOBATTO = ((0.0, 1.0 / 6.0), (0.5, 2.0 / 3.0), (1.0, 1.0 / 6.0))
 _GAUSS = tuple(zip(*gauss_points(2), strict=True))
@@ -59,7 +59,7 @@ class _Cables(Formulation, abstract=True):
             nodes=nodes,
             bodies=bodies,
             dissipation=partial(_dissipation, mesh) if viscous else None,
-            turning=add_point_masses(mbs, nodes, mesh),
+            turning=add_point_masses(mbs, nodes, mesh, self.dimensions),
         )
 
     def axial_strain(self, blade: Blade, coordinates: FloatArray) -> FloatArray:
@@ -107,7 +107,7 @@ class SpaceCable(_Cables, SpaceSlopeNodes):
 
     def require_section(self, blade: Blade) -> None:
         """Refuse a section that bends otherwise out of the plane than in it."""
-        require_bare(self, blade)
+        require_light(self, blade)
         ratios = space_unit(require_out_of_plane(blade, torsion=False)).flap_ratios
         ratio = ratios[np.argmax(np.abs(ratios - 1.0))]
         if abs(ratio - 1.0) > 1e-9:

@@ -137,12 +137,13 @@ _SLOPE = slice(2, 4)
 
 
 def add_point_masses(
-    mbs: exudyn.MainSystem, nodes: tuple[exudyn.NodeIndex, ...], mesh: Mesh
+    mbs: exudyn.MainSystem, nodes: tuple[exudyn.NodeIndex, ...], mesh: Mesh, dimensions: int = 2
 ) -> tuple[TurningNode, ...]:
     """Add the masses, and return the nodes whose slopes are to be given an inertia."""
+    body = items.ObjectMassPoint2D if dimensions == 2 else items.ObjectMassPoint
     for node, one in mesh.lumped():
         if one.mass:
-            mbs.AddObject(items.ObjectMassPoint2D(nodeNumber=nodes[node], mass=one.mass))
+            mbs.AddObject(body(nodeNumber=nodes[node], mass=one.mass))
     return tuple((node, one.inertia) for node, one in mesh.lumped() if one.inertia)
 
 

@@ -15,6 +15,7 @@ from analytic.arrays import FloatArray
 from analytic.blade_checks import require_blade
 from analytic.exact.continuum.planar_kinematics import in_plane_of_bending
 from analytic.exact.continuum.state import BladeState
+from analytic.exact.continuum.unit import space_unit
 from analytic.lazily import spatial
 
 from ..mesh import cells, shapes
@@ -31,6 +32,9 @@ _HALF_TURN = np.array(
     [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
 )
 """Product of the unit vector along z with Euler parameters, as a quaternion from the left."""
+
+
+_ON_CENTER = 1e-9  # of the length
 
 
 class SlopeNodes(Formulation, abstract=True):
@@ -198,15 +202,27 @@ class FrameNodes(Formulation, abstract=True):
         return onto_parameters(p, local[..., 0])
 
 
-def require_bare(element: Formulation, blade: Blade) -> None:
-    """Refuse point masses, which Exudyn's elements in space do not have."""
+def require_light(element: Formulation, blade: Blade) -> None:
+    """Refuse point masses that turn with their section: nodes in space have a mass alone.
+
+    The nodes are at the centers of mass of the sections.
+    """
     require_blade(blade)
-    if blade.unit.masses:
-        raise ValueError(
-            f"element {element.name!r} carries no point masses, and this blade has "
-            f"{blade.unit.differences}: take "
-            f"{'an element of the plane, or ' if blade.is_planar else ''}analytic.spin_up_response"
-        )
+    for one in blade.point_masses:
+        center = space_unit(blade).inertia_about(
+            np.array([one.position / blade.length]), blade.slenderness
+        )[0]
+        away = math.hypot(*(np.array(one.offset) - blade.length * center[1:, 0]))
+        if one.inertia or away > _ON_CENTER * blade.length:
+            what = f"has an inertia of {one.inertia:g} kg m²"
+            if not one.inertia:
+                what = f"is {away:.4g} m from there"
+            raise ValueError(
+                f"element {element.name!r} takes point masses at the centers of mass of its "
+                f"sections, and that at {one.position:g} m {what}: take "
+                f"{'an element of the plane, or ' if blade.is_planar else ''}"
+                "analytic.spin_up_response"
+            )
 
 
 _NEXT, _LAST = [1, 2, 0], [2, 0, 1]

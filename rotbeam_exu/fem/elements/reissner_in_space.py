@@ -19,9 +19,9 @@ from analytic.station_section import hat
 
 from ..lazily import exudyn, items
 from ..mesh import Mesh, cells
-from .energy_body import Assembly, add_force, add_mass
+from .energy_body import Assembly, add_force, add_mass, add_point_masses
 from .formulation import POISSON_RATIO, SHEAR_CORRECTION, Chain, Sheared
-from .node_kinds import FrameNodes, cross, directors, onto_parameters, require_bare, turning_rate
+from .node_kinds import FrameNodes, cross, directors, onto_parameters, require_light, turning_rate
 from .screw import Screw, times
 
 _INNER, _ = gauss_points(2)
@@ -35,8 +35,8 @@ class SpaceExact(Sheared, FrameNodes):
     The screw from one node to the other, less that of the unloaded blade, is the strain, constant
     in the element; velocities and turning rates are linear. The nodes stand along the sections of
     the unloaded blade, at their centers of mass, to which stiffness and inertia are moved: a blade
-    may have twist, precone, prebend, sweep, a setting angle, offsets of its centers, or a table of
-    stations. It may have kinks; one about both axes of sections that bend more easily about one of
+    may have twist, precone, prebend, sweep, a setting angle, offsets of its centers, a table of
+    stations, or point masses at the centers of mass. It may have kinks; one about both axes of sections that bend more easily about one of
     them leaves an error of first order. Exudyn's section couples no strains: what of the stiffness
     is off the diagonal is a force of our own, called from Exudyn. Sections have their inertia and
     the propeller moment, but not the trapeze effect. Exudyn ignores its section's damping:
@@ -74,8 +74,8 @@ class SpaceExact(Sheared, FrameNodes):
         return 16, 32, 64, 128
 
     def require_section(self, blade: Blade) -> None:
-        """Refuse point masses, and an unknown torsion."""
-        require_bare(self, blade)
+        """Refuse point masses that turn with their section, and an unknown torsion."""
+        require_light(self, blade)
         if blade.table:
             return
         out = blade.section.out_of_plane
@@ -104,6 +104,7 @@ class SpaceExact(Sheared, FrameNodes):
                 nodeNumbers=list(pair), length=row.lengths[i], sectionData=data
             )
             bodies.append(mbs.AddObject(body))
+        add_point_masses(mbs, nodes, Mesh(blade=blade, elements=elements), self.dimensions)
         if row.uneven.any():
             places = np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
             add_mass(mbs, nodes, row.add.matrix(np.asarray(np.kron(row.uneven, places), float)))

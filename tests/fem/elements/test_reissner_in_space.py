@@ -76,9 +76,24 @@ def coarse_and_fine(blade, omega, meshes, count):
     return np.abs(errors), np.linalg.norm(places, axis=1) / blade.length
 
 
+HEAVY = (
+    Blade(
+        length=1.0,
+        section=Section(axial_stiffness=1e4, bending_stiffness=1.0, mass_per_length=1.0),
+    )
+    .with_section_out_of_plane(0.25, 0.2)
+    .with_offsets(mass=(0.03, 0.01))
+    .with_twist(0.4)
+    .with_point_mass(0.2, 0.55, offset=(0.03, 0.01))
+    .with_tip_mass(0.2, offset=(0.03, 0.01))
+)
+"""With masses at the centers of mass of its sections."""
+
+
 @pytest.mark.parametrize(
     "blade",
     [
+        HEAVY,
         COUPLED,
         Blade(
             length=1.0,
@@ -88,7 +103,7 @@ def coarse_and_fine(blade, omega, meshes, count):
         .with_offsets(mass=(0.03, 0.01), tension=(-0.02, 0.0))
         .with_twist(0.4),
     ],
-    ids=["table", "offsets"],
+    ids=["masses", "table", "offsets"],
 )
 def test_couplings_and_offsets_converge_to_the_exact_blade(blade, fitted_order):
     """Of second order: errors of 1e-4 to 5e-3 with 32 elements."""
@@ -109,13 +124,14 @@ def test_a_shipped_blade_is_exact_to_1e_3_with_32_elements(name, omega):
     assert places[0] < 1e-4
 
 
-def test_loads_beside_the_nodes_reach_the_root_and_bring_their_energy():
+@pytest.mark.parametrize("blade", [HEAVY, COUPLED], ids=["masses", "table"])
+def test_loads_beside_the_nodes_reach_the_root_and_bring_their_energy(blade):
     """On mass, length and tip, with damping from outside; nodes are at the centers of mass.
 
     The constraints hold by the equations of motion what the sections carry by d'Alembert's
     principle: steps of 5 ms leave 1e-5 of 2. Jacobi's energy grows by what is supplied.
     """
-    blade = COUPLED.with_hub_radius(0.1).with_damping(Damping(external=0.05))
+    blade = blade.with_hub_radius(0.1).with_damping(Damping(external=0.05))
     loads = [
         Gravity(0.3, tilt=0.5), TipForce(amplitude=0.02, frequency=2.0),
         DistributedForce(amplitude=0.05, frequency=1.5),
