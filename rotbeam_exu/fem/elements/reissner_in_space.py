@@ -36,11 +36,11 @@ class SpaceExact(Sheared, FrameNodes):
     in the element; velocities and turning rates are linear. The nodes stand along the sections of
     the unloaded blade, at their centers of mass, to which stiffness and inertia are moved: a blade
     may have twist, precone, prebend, sweep, a setting angle, offsets of its centers, a table of
-    stations, or point masses at the centers of mass. It may have kinks; one about both axes of sections that bend more easily about one of
-    them leaves an error of first order. Exudyn's section couples no strains: what of the stiffness
-    is off the diagonal is a force of our own, called from Exudyn. Sections have their inertia and
-    the propeller moment, but not the trapeze effect. Exudyn ignores its section's damping:
-    viscosity is a force of our own too.
+    stations, or point masses at the centers of mass. It may have kinks; one about both axes of
+    sections that bend more easily about one of them leaves an error of first order. Exudyn's
+    section couples no strains: what of the stiffness is off the diagonal is a force of our own,
+    called from Exudyn. Sections have their inertia and the propeller moment, but not the trapeze
+    effect. Exudyn ignores its section's damping: viscosity is a force of our own too.
 
     Parameters
     ----------
