@@ -146,7 +146,7 @@ def test_loads_beside_the_nodes_reach_the_root_and_bring_their_energy(blade):
         np.testing.assert_allclose(root, run[name][:, 0].to_numpy() @ turn.T, atol=1e-4)
     gained = run["jacobi_energy"] - run["jacobi_energy"][0]
     np.testing.assert_allclose(gained, run["supplied_energy"], atol=1e-4)
-    assert abs(run["supplied_energy"]).max() > 0.15
+    assert abs(run["supplied_energy"]).max() > 0.1
 
 
 @pytest.mark.slow
