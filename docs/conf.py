@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import textwrap
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -267,10 +268,28 @@ def cut_icons(app: Any, error: Exception | None) -> None:
         save_font(font, file, options)
 
 
+def without_dead_ends(app: Any, error: Exception | None) -> None:
+    """Leave out links from source code to names that have no place of their own on a page."""
+    known: dict[Path, set[str]] = {}
+
+    def kept(page: Path, link: re.Match[str]) -> str:
+        target = (page.parent / link[1]).resolve()
+        if target not in known:
+            known[target] = set(re.findall(r'\bid="([^"]+)"', target.read_text("utf-8")))
+        return link[0] if link[2] in known[target] else ""
+
+    if error is None:
+        for page in (Path(app.outdir) / "_modules").rglob("*.html"):
+            text = page.read_text("utf-8")
+            back = r'<a class="viewcode-back" href="([^"#]+)#([^"]+)">.*?</a>'
+            page.write_text(re.sub(back, partial(kept, page), text), "utf-8")
+
+
 def setup(app: Any) -> None:
     """Connect the above."""
     app.connect("build-finished", put_mathjax)
     app.connect("build-finished", cut_icons)
+    app.connect("build-finished", without_dead_ends)
     app.connect("autodoc-process-docstring", plain, priority=400)
     app.connect("source-read", without_other_hosts)
     app.connect("html-page-context", without_half_lists)

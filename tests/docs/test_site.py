@@ -59,6 +59,22 @@ def test_no_page_names_another_host_for_what_it_loads():
         assert outside == [], page
 
 
+def test_no_link_within_the_site_ends_nowhere():
+    texts = {page: page.read_text(encoding="utf-8") for page in SITE.rglob("*.html")}
+    places = {page: {*re.findall(r'\b(?:id|name)="([^"]+)"', t)} for page, t in texts.items()}
+    dead = []
+    for page, text in texts.items():
+        for link in re.findall(r'href="([^"]+)"', text):
+            path, _, place = link.partition("#")
+            target = (page.parent / unquote(path)).resolve() if path else page
+            state = target.stem == "explorer"  # its places are the state of its sliders
+            if ":" in link or target.suffix not in (".html", "") or state:
+                continue
+            if not target.exists() or (place and unquote(place) not in places[target]):
+                dead.append((page.relative_to(SITE).as_posix(), link))
+    assert dead == []
+
+
 def test_home_says_what_it_is_to_those_who_get_its_link():
     text = (SITE / "index.html").read_text(encoding="utf-8")
     described = re.search(r'<meta name="description" content="([^"]*)"/>', text)[1]
