@@ -195,6 +195,18 @@ def without_half_lists(app: Any, page: str, template: str, context: Any, tree: A
     context["body"] = body.replace("<dl>\n<dd><em", '<dl role="presentation">\n<dd><em')
 
 
+def without_broken_numbers(app: Any, page: str, template: str, context: Any, tree: Any) -> None:
+    """Keep numbers such as 2e-06 in one line of a cell: they would break after the sign."""
+    del app, page, template, tree
+
+    def whole(cell: re.Match[str]) -> str:
+        number = r"(?<=[\s>±(])([-+−]?\d[\d.]*e[-+]\d+)(?![^<]*>)"
+        return re.sub(number, r'<span class="whole">\1</span>', cell[0])
+
+    body = context.get("body", "")
+    context["body"] = re.sub(r"<td\b.*?</td>", whole, body, flags=re.DOTALL)
+
+
 def with_description(app: Any, page: str, template: str, context: Any, tree: Any) -> None:
     """Give a page its first paragraph and a picture, for searches and for previews of links."""
     del page, template
@@ -293,6 +305,7 @@ def setup(app: Any) -> None:
     app.connect("autodoc-process-docstring", plain, priority=400)
     app.connect("source-read", without_other_hosts)
     app.connect("html-page-context", without_half_lists)
+    app.connect("html-page-context", without_broken_numbers)
     app.connect("html-page-context", with_description)
     app.connect("env-before-read-docs", spread)
     app.connect("builder-inited", write_interactive, priority=100)

@@ -33,6 +33,8 @@ itself: its errors of mesh and step may cancel.
 """
 
 
+_OUTCOMES = ("converges", "agrees within", "undecided", "differs")
+"""As a code's verdict begins."""
 _SHARES = np.linspace(0.01, 0.99, 99)  # of the mesh in an error
 
 
@@ -134,15 +136,28 @@ def codes() -> list[Code]:
 
 
 def verdicts(of: Iterable[Code], *, real: bool = False) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of the table of codes and cases, of real blades or all others."""
+    """Return header and rows of the table of codes and cases, of real blades or all others.
+
+    A column has the cases of one outcome, with what else there is to say of them.
+    """
     cases = [name for name, case in CASES.items() if (case.level is Level.REAL) == real]
-    of = [one for one in of if not one.found.findings.keys().isdisjoint(cases)]
-    cases = [case for case in cases if any(case in one.found.findings for one in of)]
     rows = []
     for one in of:
-        told = one.found.declaration
-        rows.append([f"{one.name} {told.version}", told.element, *map(one.verdict, cases)])
-    return ["code", "element", *cases], rows
+        said = {case: one.verdict(case) for case in cases if case in one.found.findings}
+        if not said:
+            continue
+        cells = [one.name, one.found.declaration.version, one.found.declaration.element]
+        for outcome in _OUTCOMES:
+            alike = {
+                case: words.removeprefix(outcome).strip()
+                for case, words in said.items()
+                if words.startswith(outcome)
+            }
+            cells.append(", ".join(f"{case} {more}".strip() for case, more in alike.items()))
+        rows.append(cells)
+    header = ["code", "version", "element", *_OUTCOMES]
+    some = [k for k, name in enumerate(header) if any(row[k] for row in rows) or k < 3]
+    return [header[k] for k in some], [[row[k] for k in some] for row in rows]
 
 
 def costs(of: Iterable[Code]) -> tuple[list[str], list[list[str]]]:

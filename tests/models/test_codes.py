@@ -251,8 +251,8 @@ def test_a_code_without_times_has_outcomes_only():
     handed = replace(handed, runs=(), rows=handed.rows[:2])
     code = overview.Code(handed, judged(handed), 1.0)
     assert overview.costs([code])[1] == []
-    (row,) = overview.verdicts([code])[1]
-    assert row[-1] == "undecided (only at 0, 2 rad/s)"
+    header, (row,) = overview.verdicts([code])
+    assert (header[-1], row[-1]) == ("undecided", "L (only at 0, 2 rad/s)")
 
 
 @pytest.mark.slow
