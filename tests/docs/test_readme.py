@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 from analytic import Beam, SpinUp, Theory, linear_modes, periodic_orbits, reduced_model
+from docs.sentences import PAGES
 from rotbeam_exu import natural_frequencies, simulate, steady_oscillation
 from rotbeam_exu.fem.elements import Cable, Exact, Linear
 from rotbeam_exu.files.beam_file import load_beam
@@ -208,6 +209,17 @@ def test_the_exact_backbone_reaches_as_far_as_said(beam, omega, reached):
 def test_peak_and_first_harmonic_are_5_percent_apart(beam):
     orbit = periodic_orbits(beam, 6.0, [0.75])
     assert orbit.first_harmonic[0] / 0.75 - 1.0 == pytest.approx(0.05, abs=0.005)
+
+
+def test_tests_that_pages_name_exist():
+    files = [path.as_posix() for path in (ROOT / "tests").rglob("*.py")]
+    named = {
+        name
+        for page in PAGES
+        for name in re.findall(r"`(?:tests/)?([\w/]*test_\w+\.py)`", page.read_text("utf-8"))
+    }
+    assert len(named) > 20
+    assert [name for name in named if not any(f.endswith(f"/{name}") for f in files)] == []
 
 
 @pytest.mark.parametrize("link", re.findall(r"\]\(((?!http)[^)#]+)\)", README))
