@@ -13,9 +13,9 @@ from rotbeam_exu.cli import app
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
 PAGES = [p for p in PAGES if "_build" not in p.parts and "gallery" not in p.parts]
-# Pages that run finite elements in number, long exact spin-ups, limits of stability, a cluster,
+# Pages that run finite elements in number, long spin-ups, fits, limits of stability, a cluster,
 # the blade of test_real_blade, or the branch of test_leaving.
-SLOW = ("theory/continuum", "theory/harmonic_balance", "theory/planar", "theory/errata",
+SLOW = ("howto/sensitivity", "theory/harmonic_balance", "theory/planar", "theory/errata",
         "theory/spin_up", "howto/forced_response", "howto/own_beam", "howto/own_element",
         "howto/real_blade", "howto/files")  # fmt: skip
 SLOW_PAGES = {ROOT / "docs" / f"{name}.md" for name in SLOW}
