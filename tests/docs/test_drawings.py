@@ -37,7 +37,7 @@ def test_precone_lifts_the_blade_and_rotation_flattens_it(blade):
 def test_each_drawing_stands_on_a_page_and_has_words_for_those_who_hear_it(name):
     assert (DRAWN / f"{name}.svg").exists()
     found = [
-        re.search(rf"images/{name}\.svg\n:alt: (.+)\n", page.read_text(encoding="utf-8"))
+        re.search(rf"!\[([^]]+)\]\(\S*images/{name}\.svg\)", page.read_text(encoding="utf-8"))
         for page in PAGES
     ]
     words = [one[1] for one in found if one]
