@@ -148,10 +148,7 @@ templates_path = ["_templates"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
 html_copy_source = False
-html_sidebars = dict.fromkeys(
-    (*("index", "start", "bibliography", "licenses", "theory/errata"),),
-    (),
-)
+html_sidebars = dict.fromkeys(("index", "start", "bibliography", "licenses", "theory/errata"), ())
 html_theme_options = {
     "navigation_with_keys": True,
     "navbar_end": ["theme-switcher"],

@@ -68,9 +68,10 @@ def fenced(markdown: str) -> Iterator[Block]:
 
 def continues(text: str) -> bool:
     """Return whether a block takes names from the blocks above it."""
-    names = [one for one in ast.walk(ast.parse(text)) if isinstance(one, ast.Name)]
+    parts = list(ast.walk(ast.parse(text)))
+    names = [one for one in parts if isinstance(one, ast.Name)]
     own = {one.id for one in names if not isinstance(one.ctx, ast.Load)} | set(dir(builtins))
-    for one in ast.walk(ast.parse(text)):
+    for one in parts:
         if isinstance(one, ast.alias):
             own.add((one.asname or one.name).partition(".")[0])
         elif isinstance(one, ast.FunctionDef | ast.ClassDef):

@@ -65,7 +65,7 @@ def compare_with_page(app: Sphinx, tree: nodes.document) -> None:
     del tree
     page = Path(app.env.doc2path(app.env.docname))
     outputs = app.env.temp_data.get("printed")
-    if not outputs or page.suffix != ".md" or not app.config.computed_runs:
+    if not outputs:
         return
     text = page.read_text("utf-8")
     filled = refilled(text, outputs)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +22,7 @@ from rotbeam_exu.verification.case import Level
 from rotbeam_exu.verification.cases import CASES
 from rotbeam_exu.verification.convergence import Convergence, Order
 from rotbeam_exu.verification.judgement import Judgement, judged
-from rotbeam_exu.verification.outcomes import worst_of
+from rotbeam_exu.verification.outcomes import Outcome, worst_of
 from rotbeam_exu.verification.submission import Submission
 from rotbeam_exu.verification.submission_files import read_submission
 
@@ -33,8 +34,6 @@ itself: its errors of mesh and step may cancel.
 """
 
 
-_OUTCOMES = ("converges", "agrees within", "undecided", "differs")
-"""As a code's verdict begins."""
 _SHARES = np.linspace(0.01, 0.99, 99)  # of the mesh in an error
 
 
@@ -55,15 +54,14 @@ class Code:
         """The name that the code declares."""
         return self.found.declaration.code
 
-    def verdict(self, case: str) -> str:
-        """Return the worst outcome of a case; nothing of one that was not submitted."""
-        findings = list(self.found.findings.get(case, {}).values())
-        if not findings:
-            return ""
-        said = worst_of(findings).said.replace(" to the reference", "")
+    def verdict(self, case: str) -> tuple[Outcome, str]:
+        """Return the worst outcome of a case that was submitted, and the rest of the sentence."""
+        worst = worst_of(list(self.found.findings[case].values()))
         speeds = sorted({one.speed for one in self.handed.rows if one.case == case})
-        whole = len(speeds) in (0, len(CASES[case].speeds))
-        return said if whole else f"{said} (only at {', '.join(map('{:g}'.format, speeds))} rad/s)"
+        more = worst.said.removeprefix(worst.outcome)
+        if len(speeds) not in (0, len(CASES[case].speeds)):
+            more += f" (only at {', '.join(map('{:g}'.format, speeds))} rad/s)"
+        return worst.outcome, more
 
     @property
     def is_timed(self) -> bool:
@@ -143,19 +141,15 @@ def verdicts(of: Iterable[Code], *, real: bool = False) -> tuple[list[str], list
     cases = [name for name, case in CASES.items() if (case.level is Level.REAL) == real]
     rows = []
     for one in of:
-        said = {case: one.verdict(case) for case in cases if case in one.found.findings}
-        if not said:
-            continue
-        cells = [one.name, one.found.declaration.version, one.found.declaration.element]
-        for outcome in _OUTCOMES:
-            alike = {
-                case: words.removeprefix(outcome).strip()
-                for case, words in said.items()
-                if words.startswith(outcome)
-            }
-            cells.append(", ".join(f"{case} {more}".strip() for case, more in alike.items()))
-        rows.append(cells)
-    header = ["code", "version", "element", *_OUTCOMES]
+        alike = defaultdict(list)
+        for case in filter(one.found.findings.get, cases):
+            outcome, more = one.verdict(case)
+            alike[outcome].append(f"{case}{more}")
+        if alike:
+            declared = one.found.declaration
+            cells = [", ".join(alike[outcome]) for outcome in Outcome]
+            rows.append([one.name, declared.version, declared.element, *cells])
+    header = ["code", "version", "element", *Outcome]
     some = [k for k, name in enumerate(header) if any(row[k] for row in rows) or k < 3]
     return [header[k] for k in some], [[row[k] for k in some] for row in rows]
 

@@ -1,4 +1,4 @@
-"""The columns of a run: everything it is asked for, in SI units, as seen from the clamp."""
+"""The columns of a run: all that it gives, in SI units, as seen from the clamp."""
 
 from __future__ import annotations
 

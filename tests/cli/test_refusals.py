@@ -61,7 +61,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
             ": leave the variants out",
         ),
         ("run --tip-force 1", "with --load-frequency"),
-        ("respond --to 2", "give one load, --ripple, --tip-force, --distributed-force"),
+        ("respond --to 2", "give one load, --ripple, --tip-force, --distributed-force or"),
         ("figure", "NUMBER is missing. rotbeam figure --help explains it"),
         ("figure -- 7", "it must be 3, 4, 5, 8"),
         ("figure -- x", "it must be 3, 4, 5, 8"),

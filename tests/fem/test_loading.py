@@ -71,7 +71,7 @@ def test_both_frames_agree_to_second_order_in_the_step(beam):
 
 
 def test_forces_on_the_length_know_the_nodes_of_a_mass_inside_the_span(beam):
-    """Of uneven elements; spread by even ones these forces left 4e-2 of the motion."""
+    """Elements are uneven; as of even ones the forces changed the motion by 4e-2."""
     heavy = beam.with_point_mass(0.5, 2.3).with_damping(Damping(external=0.3))
     motion, loads = SpinUp(omega=4.0, ramp_time=3.0), [DistributedForce(amplitude=0.2, frequency=3)]
     run = simulate(heavy, motion, elements=8, duration=4.0, step=4e-3, loads=loads)

@@ -104,7 +104,7 @@ class SpaceExact(Sheared, FrameNodes):
                 nodeNumbers=list(pair), length=row.lengths[i], sectionData=data
             )
             bodies.append(mbs.AddObject(body))
-        add_point_masses(mbs, nodes, Mesh(blade=blade, elements=elements), self.dimensions)
+        add_point_masses(mbs, nodes, row.mesh, self.dimensions)
         if row.uneven.any():
             places = np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
             add_mass(mbs, nodes, row.add.matrix(np.asarray(np.kron(row.uneven, places), float)))
@@ -203,7 +203,8 @@ class _Row:
 
     def __init__(self, element: SpaceExact, blade: Blade, elements: int) -> None:
         mesh, unit = Mesh(blade=blade, elements=elements), space_unit(blade)
-        self.lengths, frame, L = mesh.lengths, element.line_frame(blade), blade.length
+        self.mesh, self.lengths = mesh, mesh.lengths
+        frame, L = element.line_frame(blade), blade.length
         theory = element.theory_of(blade)
 
         def weight(x: FloatArray) -> FloatArray:

@@ -124,8 +124,10 @@ def test_a_shipped_blade_is_exact_to_1e_3_with_32_elements(name, omega):
     assert places[0] < 1e-4
 
 
-@pytest.mark.parametrize("blade", [HEAVY, COUPLED], ids=["masses", "table"])
-def test_loads_beside_the_nodes_reach_the_root_and_bring_their_energy(blade):
+@pytest.mark.parametrize(
+    ("blade", "supplied"), [(HEAVY, 0.1), (COUPLED, 0.2)], ids=["masses", "table"]
+)
+def test_loads_beside_the_nodes_reach_the_root_and_bring_their_energy(blade, supplied):
     """On mass, length and tip, with damping from outside; nodes are at the centers of mass.
 
     The constraints hold by the equations of motion what the sections carry by d'Alembert's
@@ -146,7 +148,7 @@ def test_loads_beside_the_nodes_reach_the_root_and_bring_their_energy(blade):
         np.testing.assert_allclose(root, run[name][:, 0].to_numpy() @ turn.T, atol=1e-4)
     gained = run["jacobi_energy"] - run["jacobi_energy"][0]
     np.testing.assert_allclose(gained, run["supplied_energy"], atol=1e-4)
-    assert abs(run["supplied_energy"]).max() > 0.1
+    assert abs(run["supplied_energy"]).max() > supplied
 
 
 @pytest.mark.slow
