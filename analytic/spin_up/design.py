@@ -11,11 +11,13 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..blade import Blade
+from ..blade_checks import require_planar
 from ..input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ..lazily import linalg, optimize
 from ..ramps import FourierRamp
 from ..threads import one_thread
-from .residual import ModesOverSpeed, exact_residuals, modes_for, residuals, swing
+from .modes_over_speed import ModesOverSpeed, excited_modes
+from .residual import exact_residuals, modes_for, residuals, swing
 
 _MORE_WAVES = 4
 _MOST_MODES = 20
@@ -47,7 +49,7 @@ class _Task:
     start: float
     omega: float
     duration: float
-    count: int
+    names: tuple[str, ...]
     steepest: float
     largest: float
     robust: int
@@ -55,7 +57,7 @@ class _Task:
     @cached_property
     def order(self) -> FloatArray:
         """The k of the unknowns."""
-        equations = self.count * (1 + self.robust)
+        equations = len(self.names) * (1 + self.robust)
         return np.arange(2.0, equations + 2.0 * _MORE_WAVES + 1.0)
 
     @property
@@ -93,7 +95,7 @@ class _Task:
     def exact(self, y: FloatArray) -> tuple[ComplexArray, float]:
         """Return the same by the exact transient, and the blade's largest |q|/L on the way."""
         ramp = self.ramp(y)
-        residuals = [exact_residuals(blade, ramp, self.count) for blade, _ in self.blades]
+        residuals = [exact_residuals(blade, ramp, self.names) for blade, _ in self.blades]
         return self._derived([left for left, _ in residuals]), residuals[0][1]
 
     def swing(self, y: FloatArray) -> FloatArray:
@@ -168,7 +170,7 @@ def design_ramp(
     duration : float
         T [s].
     modes : int
-        Number of modes left at rest.
+        Number of modes left at rest, the lowest but axial ones.
     start : float
         Speed before the ramp [rad/s]; on the way it is between zero and the higher of both.
     acceleration_limit : float, optional
@@ -177,7 +179,7 @@ def design_ramp(
         Derivatives of the residual by the blade's frequency that vanish, 0 to 2, as differences
         over ±1 %: an error ε of the frequency leaves a multiple of ε^(robust + 1), beyond 1 % if 2.
     largest : float, optional
-        Largest |q|/L on the way by the exact transient; none if not given.
+        Largest |q|/L of a planar blade on the way by the exact transient; none if not given.
 
     Raises
     ------
@@ -199,7 +201,10 @@ def design_ramp(
     if omega == start:
         raise ValueError(f"omega and start are both {omega:g} rad/s: there is nothing to change")
     robust = whole_number("robust", robust, least=0, most=2)
-    bound = math.inf if largest is None else peak_deflection("largest", largest)
+    bound = math.inf
+    if largest is not None:
+        require_planar(blade, "largest is of", "the design without it")
+        bound = peak_deflection("largest", largest)
     steepest = math.inf
     if acceleration_limit is not None:
         steepest = positive("acceleration_limit", acceleration_limit, "rad/s²")
@@ -211,9 +216,10 @@ def design_ramp(
             )
     widest = FourierRamp(start=max(start, omega), omega=omega, ramp_time=duration)
     others = [blade.in_units(1.0, 1.0, 1.0 + off) for off in (-_OFF, _OFF) if robust]
+    names = excited_modes(blade, widest.fastest, modes)
     task = _Task(
-        blades=tuple((blade, modes_for(blade, widest, modes)) for blade in (blade, *others)),
-        start=start, omega=omega, duration=duration, count=modes,
+        blades=tuple((blade, modes_for(blade, widest, names)) for blade in (blade, *others)),
+        start=start, omega=omega, duration=duration, names=names,
         steepest=steepest, largest=bound, robust=robust,
     )  # fmt: skip
     return _corrected(task)
@@ -294,7 +300,9 @@ def _too_short(task: _Task) -> str:
         limits = f"{limits} and {task.steepest:g} rad/s²"
     if math.isfinite(task.largest):
         limits = f"{limits} with a deflection of at most {task.largest:g} of the length"
-    what = f"{task.count} modes at rest{f' with robust = {task.robust}' if task.robust else ''}"
+    what = (
+        f"{len(task.names)} modes at rest{f' with robust = {task.robust}' if task.robust else ''}"
+    )
     missed = f"no ramp of {task.duration:g} s leaves {what} within {limits}"
     still = np.zeros_like(task.closed_form(task.eq_1))
     for n in range(1, _LONGEST):

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..blade import Blade
-from ..blade_checks import require_planar
+from ..blade_checks import require_blade
 from ..input_checks import positive, rotation_speed
 from ..lazily import optimize, signal
 from ..motion import SpinUp
 from ..threads import one_thread
-from .residual import ModesOverSpeed, exact_residuals, modes_for, residuals
+from .modes_over_speed import ModesOverSpeed, excited_mode
+from .residual import exact_residuals, modes_for, residuals
 
 _A_PERIOD = 40  # ramp times tried by the formula
 _PERIODS = 5.0
@@ -32,16 +34,19 @@ class QuietRamps:
     blade : Blade
     omega : float
         Speed after the ramp [rad/s].
+    mode : str
+        Name of the mode.
     ramp_times : ndarray (count,)
         Ascending [s].
     left : ndarray (count,)
-        Amplitude of the first mode at the tip over L after the exact transient [-].
+        Amplitude of the tip in the mode over L after the exact transient [-].
     linear : ndarray (count,)
         The same by the closed form.
     """
 
     blade: Blade
     omega: float
+    mode: str
     ramp_times: FloatArray
     left: FloatArray
     linear: FloatArray
@@ -49,7 +54,13 @@ class QuietRamps:
 
 @one_thread
 def quiet_ramp_times(
-    blade: Blade, omega: float, *, longest: float | None = None, tolerance: float = 1e-6
+    blade: Blade,
+    omega: float,
+    *,
+    mode: str | int = "lag 1",
+    longest: float | None = None,
+    tolerance: float = 1e-6,
+    progress: Callable[[int, int], None] | None = None,
 ) -> QuietRamps:
     """Return the ramp times of Eq. 1 up to `longest` at which the least is left.
 
@@ -61,10 +72,14 @@ def quiet_ramp_times(
     blade : Blade
     omega : float
         Speed after the ramp [rad/s].
+    mode : str or int
+        As for `residual_amplitude`.
     longest : float, optional
         Longest ramp time [s]; five periods of the blade at rest if not given.
     tolerance : float
         Of the exact transients, relative to the largest deflection.
+    progress : callable, optional
+        Called with the ramp times found and their number.
 
     Raises
     ------
@@ -78,25 +93,28 @@ def quiet_ramp_times(
     >>> print(found.ramp_times.round(2), "s leave", found.left.round(4), "L")
     [4.3] s leave [0.0069] L
     """
-    require_planar(blade)
+    require_blade(blade)
     omega, period = rotation_speed(omega), 2.0 * math.pi / blade.omega_0
     if omega == 0.0:
         raise ValueError("omega = 0 rad/s has no residual at any ramp time: take a higher speed")
     longest = _PERIODS * period if longest is None else positive("longest", longest, "s")
     unit = SpinUp(omega=omega, ramp_time=longest)
-    modes = modes_for(blade, unit, 1)
+    names = (excited_mode(blade, omega, mode),)
+    modes = modes_for(blade, unit, names)
     frequency = modes.at(np.array([omega / blade.frequency_scale])).frequency[0, 0]
     spacing = 2.0 * math.pi / (_A_PERIOD * frequency * blade.frequency_scale)
     tried = np.arange(0.5 * period, longest + spacing, spacing)
     sizes = np.abs(residuals(blade, unit, modes, tried)[0])
-    candidates = [
-        _refined(blade, unit, modes, tried[k], spacing, tolerance)
-        for k in signal.argrelmin(sizes)[0]
-    ]
+    candidates, minima = [], tried[signal.argrelmin(sizes)[0]]
+    for T in minima.tolist():
+        candidates.append(_refined(blade, unit, names, modes, T, spacing, tolerance))
+        if progress is not None:
+            progress(len(candidates), minima.size)
     ramp_times, left = np.array([one for one in candidates if one[0] <= longest]).reshape(-1, 2).T
     return QuietRamps(
         blade=blade,
         omega=omega,
+        mode=names[0],
         ramp_times=ramp_times,
         left=left,
         linear=np.abs(residuals(blade, unit, modes, ramp_times)[0]),
@@ -104,7 +122,13 @@ def quiet_ramp_times(
 
 
 def _refined(
-    blade: Blade, ramp: SpinUp, modes: ModesOverSpeed, T: float, spacing: float, tolerance: float
+    blade: Blade,
+    ramp: SpinUp,
+    names: tuple[str, ...],
+    modes: ModesOverSpeed,
+    T: float,
+    spacing: float,
+    tolerance: float,
 ) -> tuple[float, float]:
     """Return the ramp time near `T` at which the exact transient leaves the least, and what.
 
@@ -117,7 +141,7 @@ def _refined(
 
     def lacking(at: float) -> complex:
         spin_up = SpinUp(omega=ramp.omega, ramp_time=at)
-        return complex(exact_residuals(blade, spin_up, 1, tolerance)[0][0]) - form(at)
+        return complex(exact_residuals(blade, spin_up, names, tolerance)[0][0]) - form(at)
 
     def left(at: float, T: float, lack: complex, slope: complex) -> float:
         return abs(form(at) + lack + slope * (at - T)) ** 2

@@ -1,113 +1,46 @@
 """Residual amplitude: the oscillation that a change of the speed leaves, in closed form.
 
-While the speed changes slowly over a period, a mode keeps its action: its amplitude goes with
-1/√(Mω_n(w)). The Euler force Γ(w) θ̈ adds to it in phase ψ = ∫ω_n(w) dt. The ramp leaves
+While the speed changes slowly over a period, a mode keeps its action. The Euler force, and the
+inertia of the moving steady state, add φᴴg(w) θ̈ to it in phase ψ = ∫ω_n(w) dt, by the modes φ(w)
+of unit action of `modes_over_speed`. The ramp leaves
 
-    Z = (1/√(Mω_n)|_T) ∫_0^T Γ(w) θ̈ exp(i(ψ_T - ψ)) / √(Mω_n) dt,      a = |Z|,
+    Z = v(w_T) ∫_0^T φᴴg(w) θ̈ exp(i(ψ_T - ψ)) dt,      a = |Z|,
 
-and after the ramp q = -Im Z exp(iω_n(t - T)). Damping takes its share of every addition until T.
+v being the motion of the tip in the mode, and after the ramp q = -Im Z exp(iω_n(t - T)). Damping
+takes its share of every addition until T.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
 
 from ..arrays import ComplexArray, FloatArray
 from ..blade import Blade
-from ..blade_checks import require_planar
+from ..blade_checks import require_blade, require_planar
 from ..exact.driven.spin_up import spin_up_response
-from ..exact.linear.modes import driven_modes
 from ..input_checks import finite_array, flag, positive
 from ..lazily import interpolate
 from ..motion import SpeedChange, require_ramp
 from ..quadrature import gauss_points, integrals_from_clamp
 from ..reduced.any_blade import blade_oscillator
-from ..shape_functions import blade_functions
 from ..threads import one_thread
-from ..unit_blade import UnitBlade
+from .modes_over_speed import (
+    ModesOverSpeed,
+    excited_mode,
+    modes_at,
+    modes_over_speed,
+    period_of,
+)
 
-_SETTLED = 1e-8
-"""Share of the last coefficients of an interpolation that has settled."""
-_FEWEST, _MOST = 17, 257
-_FUNCTIONS = 20
-"""Twice as many as the modes in use, and four √w̄ more for the layer at the clamp."""
 _POINTS = 24
 _DURING = 193  # instants of the ramp
 _A_PANEL = 12.0  # [rad] of the phase on 24 points
 _LARGEST = 1.2
 """Amplitude up to which the action of the backbone is taken."""
-
-
-class ModesAt(NamedTuple):
-    """Modes of unit mass at speeds w̄, each (modes, speeds), nondimensional.
-
-    The natural frequency, the force of the Euler acceleration -θ̈ on the mode over -θ̈, the tip's
-    deflection (positive), and the rate at which damping takes the amplitude.
-    """
-
-    frequency: FloatArray
-    force: FloatArray
-    tip: FloatArray
-    decay: FloatArray
-
-
-@dataclass(frozen=True)
-class ModesOverSpeed:
-    """Chebyshev series of the modes from standstill to the speed w̄ = `top`."""
-
-    top: float
-    coefficients: FloatArray = field(repr=False)
-
-    def at(self, w: FloatArray) -> ModesAt:
-        """Return the modes at speeds `w`, (speeds,), whose sign does not matter.
-
-        Beyond the top they are those at the top.
-        """
-        inside = np.minimum(2.0 * np.abs(w) / self.top - 1.0, 1.0)
-        values = chebyshev.chebval(inside, self.coefficients)
-        return ModesAt(*np.asarray(values))
-
-
-@lru_cache(maxsize=64)
-def modes_over_speed(blade: UnitBlade, top: float, count: int) -> ModesOverSpeed:
-    """Return the first `count` modes for speeds w̄ from 0 to `top`."""
-    functions = max(_FUNCTIONS, 2 * count + 8) + math.ceil(4.0 * math.sqrt(top))
-    of = blade_functions(blade, functions)
-    x, dx = blade.quadrature(2 * (of.across.a_panel + 4))
-    along = of.across.twice(x)
-    viscous, air = blade.damping.bending * of.bending, blade.damping.external
-    damping = viscous + air * along.T @ (dx[:, None] * along)
-
-    def solve(x: FloatArray) -> Any:
-        """Return the modes at speeds from x = -1 to 1, one in a row, in the order of `ModesAt`."""
-        rows = []
-        for w in 0.5 * top * (1.0 + x):
-            frequencies, modes = of.modes(w, count)
-            decay = 0.5 * np.sum(modes * (damping @ modes), axis=0)
-            force, tip = blade.setting * of.euler @ modes, of.tip @ modes
-            rows.append(np.concatenate([frequencies, force, tip, decay]))
-        return np.array(rows)
-
-    points = _FEWEST
-    while True:
-        coefficients: Any = chebyshev.chebinterpolate(solve, points - 1)
-        size = np.abs(coefficients).max(axis=0) + np.finfo(float).tiny
-        rest = float((np.abs(coefficients[-2:]).max(axis=0) / size).max())
-        if rest < _SETTLED:
-            return ModesOverSpeed(top, coefficients.reshape(points, 4, count))
-        if points >= _MOST:
-            raise ValueError(
-                f"the modes up to w̄ = {top:.4g} do not settle over the speed with {points} "
-                f"speeds ({rest:.1e}): take fewer modes, or a lower speed"
-            )
-        points = 2 * points - 1
 
 
 @one_thread
@@ -116,14 +49,16 @@ def residual_amplitude(
     spin_up: SpeedChange,
     ramp_times: ArrayLike | None = None,
     *,
+    mode: str | int = "lag 1",
     corrected: bool = False,
     exact: bool = False,
     tolerance: float = 1e-6,
 ) -> Any:
-    """Return the amplitude over L of the tip's first mode after a change of the speed.
+    """Return the amplitude over L of the tip in a mode after a change of the speed.
 
-    Linear theory of the inextensible blade, adiabatic in the speed. Against the exact transient
-    of the paper's 24 spin-ups it is 1 to 5 % high up to a = 0.36, 10 % at 0.6, 26 % at 0.84.
+    Linear about the steady state, adiabatic in the speed. Against the exact transient of the
+    paper's 24 spin-ups it is 1 to 5 % high up to a = 0.36, 10 % at 0.6, 26 % at 0.84. The amplitude
+    of a flap mode is that normal to the plane of rotation, of other modes that in it.
 
     Parameters
     ----------
@@ -131,12 +66,14 @@ def residual_amplitude(
     spin_up : SpinUp, FourierRamp or SpeedTable
     ramp_times : array_like, optional
         Durations [s] of the same motion, stretched in time; otherwise its own.
+    mode : str or int
+        By its name in `linear_modes` at the highest speed, or its number there, from 1.
     corrected : bool
-        Take the linear action for the action of the nonlinear orbit (FrM, Eq. 41):
-        1 to 3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
+        Take the linear action for the action of the nonlinear orbit (FrM, Eq. 41), of lag 1 of a
+        planar blade: 1 to 3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
     exact : bool
-        Take half peak to peak of the tip in the first period after the exact transient, all modes
-        and large deflections included, of the motion's own ramp time.
+        Take half peak to peak of the tip in the mode's first period after the exact transient, all
+        modes and large deflections included, of the motion's own ramp time.
     tolerance : float
         Of the exact transient, as in `spin_up_response`.
 
@@ -154,32 +91,36 @@ def residual_amplitude(
     >>> print(f"{residual_amplitude(beam, spin_up, exact=True):.4f} L by the exact transient")
     0.1655 L by the exact transient
     """
-    require_planar(blade)
+    require_blade(blade)
     require_ramp(spin_up)
+    names = (excited_mode(blade, spin_up.fastest, mode),)
     corrected = flag("corrected", corrected)
+    if corrected:
+        require_planar(blade, "corrected=True is of", "the closed form without it, or exact=True")
+        if names != ("lag 1",):
+            raise ValueError(f"corrected=True is of the orbit of lag 1, and mode is {names[0]}")
     if flag("exact", exact):
         if ramp_times is not None or corrected:
             raise ValueError(
                 "exact=True is of the motion's own ramp time and of all modes: leave out "
                 "ramp_times and corrected"
             )
-        return _exact(blade, spin_up, tolerance)
+        return _exact(blade, spin_up, names, tolerance)
     times = finite_array("ramp_times", spin_up.ramp_time if ramp_times is None else ramp_times, "s")
     for T in times.ravel()[times.ravel() <= 0.0]:
         positive("ramp_times", T, "s")
-    modes = modes_for(blade, spin_up, 1)
+    modes = modes_for(blade, spin_up, names)
     left = np.abs(residuals(blade, spin_up, modes, times.ravel())[0]).reshape(times.shape)
     if corrected:
         left = _on_the_backbone(blade, spin_up.omega, left)
     return float(left) if ramp_times is None else left
 
 
-def modes_for(blade: Blade, spin_up: SpeedChange, count: int) -> ModesOverSpeed:
+def modes_for(blade: Blade, spin_up: SpeedChange, names: tuple[str, ...]) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
-    require_planar(blade)
     # Rounded up, so that nearly equal speeds share one series.
     top = max(1.0, math.ceil(10.0 * spin_up.fastest / blade.frequency_scale) / 10.0)
-    return modes_over_speed(blade.unit, top, count)
+    return modes_over_speed(blade, top, names)
 
 
 def residuals(
@@ -213,9 +154,9 @@ class _Waves(NamedTuple):
     """(iω_n - d) from each point to the end, (modes, points), over the duration [1/s]."""
     ahead: ComplexArray
     """The same from the ends of the pieces, (modes, pieces)."""
-    force: FloatArray
-    """Force of the Euler acceleration, with the weights of Gauss's method, (modes, points)."""
-    tip: FloatArray
+    force: ComplexArray
+    """What the acceleration excites, with the weights of Gauss's method, (modes, points)."""
+    tip: ComplexArray
     """At the edges of the pieces, (modes, pieces + 1)."""
 
 
@@ -243,44 +184,44 @@ def _waves(
     return _Waves(
         exponent=scale * (ahead - inside).reshape(at.frequency.shape),
         ahead=scale * (ahead[..., 0] - whole),
-        force=euler * at.force / np.sqrt(at.frequency),
-        tip=end.tip / np.sqrt(end.frequency),
+        force=euler * at.force,
+        tip=end.tip,
     )
 
 
-def _exact(blade: Blade, spin_up: SpeedChange, tolerance: float) -> float:
+def _exact(blade: Blade, spin_up: SpeedChange, names: tuple[str, ...], tolerance: float) -> float:
     """Return half peak to peak of the tip over L in the first period after the exact transient."""
-    period = 2.0 * math.pi / float(driven_modes(blade, spin_up.omega).frequencies[0])
-    T = spin_up.ramp_time
+    T, period = spin_up.ramp_time, period_of(blade, spin_up.omega, *names)
     during, after = np.linspace(0.0, T, 33), np.linspace(T, T + 1.1 * period, 300)
     response = spin_up_response(blade, spin_up, np.append(during, after), tolerance=tolerance)
-    return float(np.ptp(response.q[during.size :])) / (2.0 * blade.length)
+    seen = response.flap if names[0].startswith("flap") else response.q
+    return float(np.ptp(seen[during.size :])) / (2.0 * blade.length)
 
 
 def exact_residuals(
-    blade: Blade, ramp: SpeedChange, count: int = 1, tolerance: float = 1e-6
+    blade: Blade, ramp: SpeedChange, names: tuple[str, ...], tolerance: float = 1e-6
 ) -> tuple[ComplexArray, float]:
-    """Return Z (count,) of the first modes over L by the exact transient, for small oscillations.
+    """Return Z (modes,) over L by the exact transient, for small oscillations.
 
-    By least squares over the first period after the ramp, of q = -Im Σ Z_k exp((iω_k - d_k)(t - T))
-    with one mode more, whose share is so kept out of the others. And the largest |q|/L of the ramp.
+    By least squares over the longest period of these modes, of the tip's place less the steady one.
+    One mode more takes its share out of the others. And the largest |q|/L of the ramp.
     """
-    decay = (
-        modes_for(blade, ramp, count + 1).at(np.array([ramp.omega / blade.frequency_scale])).decay
-    )
-    functions = max(20, 2 * (count + 1))
-    omegas = driven_modes(blade, ramp.omega, count + 1, functions=functions).frequencies
+    still, modes = modes_at(blade, ramp.omega, names, more=1)
     # The times before tell how large the motion is, of which the tolerance is a share.
     during = np.linspace(0.0, ramp.ramp_time, _DURING)
-    after = np.linspace(0.0, 2.0 * math.pi / omegas[0], 100)
-    times = np.append(during, ramp.ramp_time + after)
-    response = spin_up_response(blade, ramp, times, tolerance=tolerance)
-    wave = np.exp(np.outer(after, 1j * omegas - decay[:, 0] * blade.frequency_scale))
-    shares = np.concatenate((-wave.imag, -wave.real), axis=1)
-    q = response.q / blade.length
-    fitted = np.linalg.lstsq(shares, q[during.size :], rcond=None)[0]
-    left = np.asarray(fitted[:count] + 1j * fitted[count + 1 : -1])
-    return left, float(np.abs(q[: during.size]).max())
+    period = 2.0 * math.pi / (blade.frequency_scale * float(modes.frequency.min()))
+    after = np.linspace(0.0, period, 100)
+    response = spin_up_response(
+        blade, ramp, np.append(during, ramp.ramp_time + after), tolerance=tolerance
+    )
+    wave = np.exp(np.outer(after, blade.frequency_scale * (1j * modes.frequency - modes.decay)))
+    places = np.stack((response.q, response.flap))[: still.size] / blade.length
+    moving = np.einsum("tk,kc->ctk", wave, modes.tips[:, 1:])
+    shares = np.concatenate((-moving.imag, -moving.real), axis=2).reshape(-1, 2 * len(modes.tip))
+    left = (places[:, during.size :] - still[:, None]).ravel()
+    real, imaginary = np.split(np.linalg.lstsq(shares, left, rcond=None)[0], 2)
+    Z = (modes.tip * (real + 1j * imaginary))[: len(names)]
+    return Z, float(np.abs(places[0, : during.size]).max())
 
 
 def _on_the_backbone(blade: Blade, omega: float, linear: FloatArray) -> FloatArray:

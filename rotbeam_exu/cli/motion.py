@@ -51,6 +51,11 @@ def chosen_times(blade: Blade, *of_paper: float, digits: int = 2) -> list[float]
     return [_rounded(time * longer, digits) for time in of_paper]
 
 
+def chosen_ramps(blade: Blade) -> float:
+    """Return the longest ramp time [s] that is looked at: 10 s of the paper's beam, scaled."""
+    return _rounded(10.0 * slower_than_paper(blade), 2)
+
+
 def refuse_rest(*speeds: float) -> None:
     """Refuse a speed [rad/s] of zero, at which nothing will oscillate."""
     if not all(speeds):

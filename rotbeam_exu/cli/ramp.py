@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 import analytic
 from analytic import Blade, SpinUp
-from analytic.blade_checks import require_planar
 from analytic.input_checks import positive, whole_number
+from analytic.spin_up.modes_over_speed import excited_mode
 
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
 from .job import Results
-from .motion import chosen_times
+from .motion import chosen_ramps
 from .options import Number, Whole
 from .output import counter, formatted, print_columns, print_note
 from .request import Request, uses
@@ -22,6 +24,7 @@ from .request import Request, uses
 def ramp(
     request: Request,
     *,
+    mode: str = "lag 1",
     longest: Number | None = None,
     points: Whole = 9,
     finite_element_points: Whole = 5,
@@ -33,6 +36,8 @@ def ramp(
 
     Parameters
     ----------
+    mode
+        Mode whose vibration is left, by its name or number.
     longest
         Longest ramp time [s]; 10 for the paper's beam.
     points
@@ -43,17 +48,21 @@ def ramp(
     Examples
     --------
     $ rotbeam ramp --omega 6 --longest 10
+    $ rotbeam ramp --config nrel_5mw.toml --mode "flap 1" --points 3 --finite-element-points 0
     """
     from .. import comparison
 
     blade = request.blade
-    require_planar(blade, "ramp is for", "rotbeam reference, which has one ramp in space")
     case = request.case()
     omega = case.omega
-    longest = chosen_times(blade, 10.0)[0] if longest is None else positive("longest", longest)
+    mode = excited_mode(blade, omega, mode)
+    if longest is None:
+        longest = chosen_ramps(blade)
+    positive("longest", longest)
     whole_number("finite-element-points", finite_element_points, least=0)
     inputs = request.inputs(
-        omega=omega, longest=longest, points=points, finite_element_points=finite_element_points,
+        omega=omega, mode=mode, longest=longest, points=points,
+        finite_element_points=finite_element_points,
         **{name: case.describe()[name] for name in ("element", "element_options", "elements")},
     )  # fmt: skip
     if finite_element_points:
@@ -63,16 +72,18 @@ def ramp(
         except ImportError as error:
             raise ImportError(f"{error}; take --finite-element-points 0") from error
 
+    of_mode = "" if mode == "lag 1" else f"-{mode.replace(' ', '-')}"
+
     def computed() -> xr.Dataset:
-        with counter("transients") as progress:
+        with counter("ramps") as progress:
             return comparison.residual(
-                blade, omega, longest=longest, points=points, element=case.element,
+                blade, omega, mode=mode, longest=longest, points=points, element=case.element,
                 elements=case.elements, finite_element_points=finite_element_points,
                 progress=progress,
             )  # fmt: skip
 
     results.job(
-        f"ramp-omega-{omega:g}-longest-{longest:g}", inputs, computed,
+        f"ramp-omega-{omega:g}-longest-{longest:g}{of_mode}", inputs, computed,
         lambda data, _: _print(blade, omega, longest, data),
         draw=lambda figures, data: figures.residual(data),
     )  # fmt: skip
@@ -80,16 +91,16 @@ def ramp(
 
 def _print(blade: Blade, omega: float, longest: float, data: xr.Dataset) -> None:
     """Print the quiet ramps, then the points."""
-    one = SpinUp(omega=omega, ramp_time=longest)
+    one, mode = SpinUp(omega=omega, ramp_time=longest), data.attrs["mode"]
     quiet = data["quiet_ramp_time"].to_numpy()
-    left = analytic.residual_amplitude
+    left = partial(analytic.residual_amplitude, blade, one, mode=mode)
     print_columns(
         {
             "T [s]": formatted(quiet, ".4f"),
             "residual/L": formatted(data["quiet"], ".2e"),
-            "closed form": formatted(left(blade, one, quiet), ".2e"),
+            "closed form": formatted(left(quiet), ".2e"),
         },
-        title="Quiet ramp times of Eq. 1",
+        title=f"Quiet ramp times of Eq. 1, {mode}",
     )
     exact, elements = (
         dict(zip(data[f"{name}_ramp_time"].to_numpy(), data[name].to_numpy(), strict=True))
@@ -98,17 +109,22 @@ def _print(blade: Blade, omega: float, longest: float, data: xr.Dataset) -> None
     times = np.array(sorted({*exact, *elements}))
     if not times.size:
         return
+    by_backbone = {}
+    if np.isfinite(data["corrected"]).any():
+        by_backbone = {"with the backbone": formatted(left(times, corrected=True), "#.4g")}
     print_columns(
         {
             "T [s]": formatted(times, ".4f"),
-            "closed form": formatted(left(blade, one, times), "#.4g"),
-            "with the backbone": formatted(left(blade, one, times, corrected=True), "#.4g"),
+            "closed form": formatted(left(times), "#.4g"),
+            **by_backbone,
             "exact": formatted([exact.get(T, np.nan) for T in times], "#.4g"),
             "finite elements": formatted([elements.get(T, np.nan) for T in times], "#.4g"),
         },
         title=f"Residual amplitude over L, ω = {omega:g} rad/s",
     )
+    note = "; with the backbone: corrected by the action of FrM's orbit" * bool(by_backbone)
+    moves = "out of the plane of rotation" if mode.startswith("flap") else "in it"
     print_note(
-        "closed form: linear beam; with the backbone: corrected by the action of FrM's orbit; "
-        "-: no run",
+        f"closed form: linear, {mode} alone{note}; exact and finite elements: all modes, "
+        f"half peak to peak {moves}; -: no transient"
     )

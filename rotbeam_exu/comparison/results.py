@@ -13,9 +13,10 @@ from analytic import Beam, Blade, Rectangle, SpinUp, quiet_ramp_times, residual_
 from analytic.arrays import FloatArray
 from analytic.description import describe
 from analytic.exact.free.planar_orbits import growth_rates
-from analytic.exact.linear.modes import driven_modes
 from analytic.input_checks import finite_values, positive, whole_number
 from analytic.reduced.any_blade import blade_oscillator
+from analytic.spin_up.modes_over_speed import excited_mode, period_of
+from analytic.warning import warn
 
 from ..fem.elements import Formulation, formulation
 from ..fem.simulation import simulate
@@ -29,7 +30,7 @@ _SHORTEST = 0.8
 """Shortest ramp time, in periods at rest."""
 _LARGEST = 0.9
 """Closed form beyond which the blade is thrown about, and nothing is measured."""
-_STEPS = 2000
+_STEPS = 1000
 """Steps in a period after the ramp."""
 
 
@@ -37,6 +38,7 @@ def residual(
     blade: Blade | None = None,
     omega: float = 6.0,
     *,
+    mode: str | int = "lag 1",
     longest: float | None = None,
     points: int = 9,
     finite_element_points: int = 5,
@@ -52,6 +54,8 @@ def residual(
         By default the paper's beam.
     omega : float
         Speed after the ramp [rad/s].
+    mode : str or int
+        As for `analytic.residual_amplitude`.
     longest : float, optional
         Longest ramp time [s], by default five periods of the blade at rest.
     points, finite_element_points : int
@@ -65,9 +69,10 @@ def residual(
     Returns
     -------
     Dataset
-        `linear` and `corrected` (by the backbone's action) over `ramp_time`, `exact` over
-        `exact_ramp_time`, `finite_element` over `finite_element_ramp_time`, `quiet` over
-        `quiet_ramp_time`: half peak to peak of the tip over L; `quiet` that of the first mode.
+        `linear` and `corrected` (by the backbone's action; NaN of other modes than lag 1, and of
+        blades in space) over `ramp_time`, `exact` over `exact_ramp_time`, `finite_element` over
+        `finite_element_ramp_time`, `quiet` over `quiet_ramp_time`: half peak to peak of the tip
+        over L along the mode's motion; `linear` and `quiet` that of the mode alone.
     """
     blade = Beam.reference() if blade is None else blade
     period = 2.0 * math.pi / blade.omega_0
@@ -84,25 +89,37 @@ def residual(
     ]
     one = SpinUp(omega=omega, ramp_time=longest)
     curve = np.linspace(_SHORTEST * period, longest, _CURVE)
-    linear = residual_amplitude(blade, one, curve)
-    corrected = residual_amplitude(blade, one, curve, corrected=True)
+    mode = excited_mode(blade, omega, mode)
+    linear = residual_amplitude(blade, one, curve, mode=mode)
+    corrected = np.full(_CURVE, np.nan)
+    if blade.is_planar and mode == "lag 1":
+        corrected = residual_amplitude(blade, one, curve, corrected=True)
     calm = curve[linear <= _LARGEST].min(initial=longest)
     exact_at, elements_at = (np.linspace(calm, longest, count) for count in counts)
-    done = itertools.count(1)
+
+    def more(done: int, count: int) -> None:
+        if progress is not None:
+            progress(done, count + sum(counts))
+
+    quiet = quiet_ramp_times(blade, omega, mode=mode, longest=longest, progress=more)
+    found, done = quiet.ramp_times.size, itertools.count(quiet.ramp_times.size + 1)
 
     def measured(measure: Callable[[SpinUp], float], times: FloatArray) -> list[float]:
         left = []
         for T in times.tolist():
-            left.append(measure(SpinUp(omega=omega, ramp_time=T)))
-            if progress is not None:
-                progress(next(done), sum(counts))
+            try:
+                left.append(measure(SpinUp(omega=omega, ramp_time=T)))
+            except RuntimeError as error:
+                warn(f"a ramp of {T:.4g} s is left out: {error}")
+                left.append(math.nan)
+            more(next(done), found)
         return left
 
     exact = measured(
-        lambda ramp: residual_amplitude(blade, ramp, exact=True, tolerance=1e-5), exact_at
+        lambda ramp: residual_amplitude(blade, ramp, mode=mode, exact=True, tolerance=1e-5),
+        exact_at,
     )
-    runs = measured(lambda ramp: _of_elements(blade, ramp, model, elements), elements_at)
-    quiet = quiet_ramp_times(blade, omega, longest=longest)
+    runs = measured(lambda ramp: _of_elements(blade, ramp, mode, model, elements), elements_at)
     left = "amplitude left over L, "
     by_backbone = f"{left}closed form, corrected by the backbone"
     ramp_time = "ramp time T [s]"
@@ -123,6 +140,7 @@ def residual(
         {
             **blade_attributes(blade),
             "omega": omega,
+            "mode": mode,
             "longest": longest,
             "element": model.name,
             "element_options": json.dumps(describe(model)),
@@ -131,13 +149,16 @@ def residual(
     )
 
 
-def _of_elements(blade: Blade, ramp: SpinUp, element: Formulation, elements: int) -> float:
+def _of_elements(
+    blade: Blade, ramp: SpinUp, mode: str, element: Formulation, elements: int
+) -> float:
     """Return half peak to peak over L in the first period after the ramp, of a run."""
-    period = 2.0 * math.pi / float(driven_modes(blade, ramp.omega).frequencies[0])
+    period = period_of(blade, ramp.omega, mode)
     step = min(period / _STEPS, ramp.ramp_time / _STEPS)
     duration = step * math.ceil((ramp.ramp_time + 1.1 * period) / step)
     run = simulate(blade, ramp, element=element, elements=elements, duration=duration, step=step)
-    q = run["q"].sel(time=slice(ramp.ramp_time, None)).to_numpy()
+    name = "w" if mode.startswith("flap") else "q"
+    q = run[name].sel(time=slice(ramp.ramp_time, None)).to_numpy()
     return float(np.ptp(q)) / (2.0 * blade.length)
 
 
