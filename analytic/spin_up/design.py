@@ -15,6 +15,7 @@ from ..blade_checks import require_planar
 from ..input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ..lazily import linalg, optimize
 from ..ramps import FourierRamp
+from ..theory import BERNOULLI_EULER, Theory, require_theory
 from ..threads import one_thread
 from .modes_over_speed import ModesOverSpeed, excited_modes
 from .residual import exact_residuals, modes_for, residuals, swing
@@ -50,6 +51,7 @@ class _Task:
     omega: float
     duration: float
     names: tuple[str, ...]
+    theory: Theory
     steepest: float
     largest: float
     robust: int
@@ -95,7 +97,9 @@ class _Task:
     def exact(self, y: FloatArray) -> tuple[ComplexArray, float]:
         """Return the same by the exact transient, and the blade's largest |q|/L on the way."""
         ramp = self.ramp(y)
-        residuals = [exact_residuals(blade, ramp, self.names) for blade, _ in self.blades]
+        residuals = [
+            exact_residuals(blade, ramp, self.names, self.theory) for blade, _ in self.blades
+        ]
         return self._derived([left for left, _ in residuals]), residuals[0][1]
 
     def swing(self, y: FloatArray) -> FloatArray:
@@ -148,6 +152,7 @@ def design_ramp(
     modes: int = 2,
     *,
     start: float = 0.0,
+    theory: Theory = BERNOULLI_EULER,
     acceleration_limit: float | None = None,
     robust: int = 0,
     largest: float | None = None,
@@ -173,6 +178,8 @@ def design_ramp(
         Number of modes left at rest, the lowest but axial ones.
     start : float
         Speed before the ramp [rad/s]; on the way it is between zero and the higher of both.
+    theory : Theory
+        As for `residual_amplitude`.
     acceleration_limit : float, optional
         Largest |θ̈| [rad/s²]; none if not given. That of Eq. 1 is 2(ω - ω_start)/T.
     robust : int
@@ -216,10 +223,10 @@ def design_ramp(
             )
     widest = FourierRamp(start=max(start, omega), omega=omega, ramp_time=duration)
     others = [blade.in_units(1.0, 1.0, 1.0 + off) for off in (-_OFF, _OFF) if robust]
-    names = excited_modes(blade, widest.fastest, modes)
+    names = excited_modes(blade, widest.fastest, modes, require_theory(theory))
     task = _Task(
-        blades=tuple((blade, modes_for(blade, widest, names)) for blade in (blade, *others)),
-        start=start, omega=omega, duration=duration, names=names,
+        blades=tuple((one, modes_for(one, widest, theory, names)) for one in (blade, *others)),
+        start=start, omega=omega, duration=duration, names=names, theory=theory,
         steepest=steepest, largest=bound, robust=robust,
     )  # fmt: skip
     return _corrected(task)

@@ -28,7 +28,7 @@ from ..exact.continuum.state import Driven
 from ..exact.linear.families import LinearModes
 from ..exact.linear.modes import driven_modes, mode_name
 from ..lazily import optimize
-from ..theory import BERNOULLI_EULER
+from ..theory import Theory
 
 _SETTLED = 1e-8
 """Share of the last coefficients of an interpolation that has settled."""
@@ -82,16 +82,16 @@ class SolvedModes(NamedTuple):
     turning: ComplexArray  # φᴴMφ, and φᴴ(δK + iω_n δC - ω_n²δM)φ by ẇ, (2, modes)
 
 
-def excited_modes(blade: Blade, omega: float, count: int) -> tuple[str, ...]:
+def excited_modes(blade: Blade, omega: float, count: int, theory: Theory) -> tuple[str, ...]:
     """Return the names of the lowest modes that a change of the speed excites, but axial ones."""
-    modes = _found(blade, omega, lambda names: len(_across(names)) >= count)
+    modes = _found(blade, omega, theory, lambda names: len(_across(names)) >= count)
     return _across(modes.names)[:count]
 
 
-def excited_mode(blade: Blade, omega: float, mode: str | int) -> str:
+def excited_mode(blade: Blade, omega: float, mode: str | int, theory: Theory) -> str:
     """Return the name of a mode that a change of the speed excites, given by name or number."""
-    name = mode_name(blade, omega, mode, BERNOULLI_EULER)
-    names = _found(blade, omega, lambda names: name in names).names
+    name = mode_name(blade, omega, mode, theory)
+    names = _found(blade, omega, theory, lambda names: name in names).names
     if name not in names:
         raise ValueError(
             f"no change of the speed excites {name} of this blade, or it is none of the lowest "
@@ -105,44 +105,52 @@ def _across(names: Sequence[str]) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=8)
-def _lowest(blade: Blade, omega: float, count: int) -> LinearModes:
-    return driven_modes(blade, omega, count, functions=max(20, 2 * count))
+def _lowest(blade: Blade, omega: float, theory: Theory, count: int) -> LinearModes:
+    return driven_modes(blade, omega, count, theory=theory, functions=max(20, 2 * count))
 
 
-def _found(blade: Blade, omega: float, enough: Callable[[Sequence[str]], bool]) -> LinearModes:
+def _found(
+    blade: Blade, omega: float, theory: Theory, enough: Callable[[Sequence[str]], bool]
+) -> LinearModes:
     """Return as many of the lowest modes as are enough, or the most that are sought."""
     count = _FIRST
-    while not enough((modes := _lowest(blade, omega, count)).names) and count < _MOST_MODES:
+    while not enough((modes := _lowest(blade, omega, theory, count)).names) and count < _MOST_MODES:
         count *= 2
     return modes
 
 
-def _places(blade: Blade, omega: float, names: Sequence[str]) -> tuple[LinearModes, list[int]]:
-    modes = _found(blade, omega, lambda found: set(names) <= set(found))
+def _places(
+    blade: Blade, omega: float, theory: Theory, names: Sequence[str]
+) -> tuple[LinearModes, list[int]]:
+    modes = _found(blade, omega, theory, lambda found: set(names) <= set(found))
     return modes, [modes.names.index(name) for name in names]
 
 
+def with_neighbors(
+    blade: Blade, omega: float, theory: Theory, names: tuple[str, ...]
+) -> tuple[str, ...]:
+    """Return names of modes, then of all others below the highest of them, and of one above it."""
+    modes, places = _places(blade, omega, theory, names)
+    last = max(places) + 1
+    modes = _found(blade, omega, theory, lambda found: len(_across(found[last:])) > 0)
+    others = _across(modes.names[:last]) + _across(modes.names[last:])[:1]
+    return names + tuple(name for name in others if name not in names)
+
+
 def modes_at(
-    blade: Blade, omega: float, names: Sequence[str], more: int = 0
+    blade: Blade, omega: float, theory: Theory, names: Sequence[str]
 ) -> tuple[FloatArray, SolvedModes]:
     """Return the steady tip across the clamp over L, lag and flap, and modes at one speed [rad/s].
 
-    After those named come all others below the highest of them, and so many above it.
+    Modes of torsion need not move the tip; `tip` of theirs may be zero.
     """
-    modes, places = _places(blade, omega, names)
-    if more:
-        modes = _found(blade, omega, lambda found: len(_across(found[max(places) + 1 :])) >= more)
-        above = _across(modes.names[max(places) + 1 :])[:more]
-        others = [*_across(modes.names[: max(places)]), *above]
-        names = [*names, *(name for name in others if name not in names)]
-        places = [modes.names.index(name) for name in names]
-    steady = modes.steady
-    return steady.tip[1:], _modes(steady, places, _along(names))
+    modes, places = _places(blade, omega, theory, names)
+    return modes.steady.tip[1:], _modes(modes.steady, places, _along(names))
 
 
-def period_of(blade: Blade, omega: float, name: str) -> float:
+def period_of(blade: Blade, omega: float, theory: Theory, name: str) -> float:
     """Return the period of a mode [s]."""
-    modes, (place,) = _places(blade, omega, (name,))
+    modes, (place,) = _places(blade, omega, theory, (name,))
     return 2.0 * math.pi / float(modes.frequencies[place])
 
 
@@ -151,9 +159,11 @@ def _along(names: Sequence[str]) -> list[int]:
 
 
 @lru_cache(maxsize=64)
-def modes_over_speed(blade: Blade, top: float, names: tuple[str, ...]) -> ModesOverSpeed:
+def modes_over_speed(
+    blade: Blade, top: float, theory: Theory, names: tuple[str, ...]
+) -> ModesOverSpeed:
     """Return the modes, named as at the speed `top`, for speeds w̄ from 0 to `top`."""
-    modes, places = _places(blade, top * blade.frequency_scale, names)
+    modes, places = _places(blade, top * blade.frequency_scale, theory, names)
     at_top, along = modes.steady, _along(names)
     followed = {1.0: (at_top, np.array(places))}
     solved = {1.0: _modes(at_top, followed[1.0][1], along)}

@@ -14,6 +14,7 @@ from ..blade_checks import require_blade
 from ..input_checks import positive, rotation_speed
 from ..lazily import optimize, signal
 from ..motion import SpinUp
+from ..theory import BERNOULLI_EULER, Theory, require_theory
 from ..threads import one_thread
 from .modes_over_speed import ModesOverSpeed, excited_mode
 from .residual import exact_residuals, modes_for, residuals
@@ -58,6 +59,7 @@ def quiet_ramp_times(
     omega: float,
     *,
     mode: str | int = "lag 1",
+    theory: Theory = BERNOULLI_EULER,
     longest: float | None = None,
     tolerance: float = 1e-6,
     progress: Callable[[int, int], None] | None = None,
@@ -72,7 +74,7 @@ def quiet_ramp_times(
     blade : Blade
     omega : float
         Speed after the ramp [rad/s].
-    mode : str or int
+    mode, theory
         As for `residual_amplitude`.
     longest : float, optional
         Longest ramp time [s]; five periods of the blade at rest if not given.
@@ -99,15 +101,15 @@ def quiet_ramp_times(
         raise ValueError("omega = 0 rad/s has no residual at any ramp time: take a higher speed")
     longest = _PERIODS * period if longest is None else positive("longest", longest, "s")
     unit = SpinUp(omega=omega, ramp_time=longest)
-    names = (excited_mode(blade, omega, mode),)
-    modes = modes_for(blade, unit, names)
+    names = (excited_mode(blade, omega, mode, require_theory(theory)),)
+    modes = modes_for(blade, unit, theory, names)
     frequency = modes.at(np.array([omega / blade.frequency_scale])).frequency[0, 0]
     spacing = 2.0 * math.pi / (_A_PERIOD * frequency * blade.frequency_scale)
     tried = np.arange(0.5 * period, longest + spacing, spacing)
     sizes = np.abs(residuals(blade, unit, modes, tried)[0])
     candidates, minima = [], tried[signal.argrelmin(sizes)[0]]
     for T in minima.tolist():
-        candidates.append(_refined(blade, unit, names, modes, T, spacing, tolerance))
+        candidates.append(_refined(blade, unit, names, theory, modes, T, spacing, tolerance))
         if progress is not None:
             progress(len(candidates), minima.size)
     ramp_times, left = np.array([one for one in candidates if one[0] <= longest]).reshape(-1, 2).T
@@ -125,6 +127,7 @@ def _refined(
     blade: Blade,
     ramp: SpinUp,
     names: tuple[str, ...],
+    theory: Theory,
     modes: ModesOverSpeed,
     T: float,
     spacing: float,
@@ -141,7 +144,7 @@ def _refined(
 
     def lacking(at: float) -> complex:
         spin_up = SpinUp(omega=ramp.omega, ramp_time=at)
-        return complex(exact_residuals(blade, spin_up, names, tolerance)[0][0]) - form(at)
+        return complex(exact_residuals(blade, spin_up, names, theory, tolerance)[0][0]) - form(at)
 
     def left(at: float, T: float, lack: complex, slope: complex) -> float:
         return abs(form(at) + lack + slope * (at - T)) ** 2

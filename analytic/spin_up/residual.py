@@ -13,6 +13,7 @@ takes its share of every addition until T.
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ from ..lazily import interpolate
 from ..motion import SpeedChange, require_ramp
 from ..quadrature import gauss_points, integrals_from_clamp
 from ..reduced.any_blade import blade_oscillator
+from ..theory import BERNOULLI_EULER, Theory, require_theory
 from ..threads import one_thread
 from .modes_over_speed import (
     ModesOverSpeed,
@@ -34,10 +36,11 @@ from .modes_over_speed import (
     modes_at,
     modes_over_speed,
     period_of,
+    with_neighbors,
 )
 
 _POINTS = 24
-_DURING = 193  # instants of the ramp
+_DURING, _A_PERIOD = 193, 100  # instants of the ramp, and of a period after it
 _A_PANEL = 12.0  # [rad] of the phase on 24 points
 _LARGEST = 1.2
 """Amplitude up to which the action of the backbone is taken."""
@@ -50,7 +53,9 @@ def residual_amplitude(
     ramp_times: ArrayLike | None = None,
     *,
     mode: str | int = "lag 1",
+    theory: Theory = BERNOULLI_EULER,
     corrected: bool = False,
+    all_modes: bool = False,
     exact: bool = False,
     tolerance: float = 1e-6,
 ) -> Any:
@@ -68,12 +73,17 @@ def residual_amplitude(
         Durations [s] of the same motion, stretched in time; otherwise its own.
     mode : str or int
         By its name in `linear_modes` at the highest speed, or its number there, from 1.
+    theory : Theory
+        Extension, shear, rotary inertia, trapeze effect.
     corrected : bool
         Take the linear action for the action of the nonlinear orbit (FrM, Eq. 41), of lag 1 of a
         planar blade: 1 to 3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
+    all_modes : bool
+        Take half peak to peak of the tip in the mode's direction, in its first period after the
+        ramp, of this mode, those below it and one above.
     exact : bool
-        Take half peak to peak of the tip in the mode's first period after the exact transient, all
-        modes and large deflections included, of the motion's own ramp time.
+        Take the same of the exact transient, all modes and large deflections included, of the
+        motion's own ramp time.
     tolerance : float
         Of the exact transient, as in `spin_up_response`.
 
@@ -93,7 +103,7 @@ def residual_amplitude(
     """
     require_blade(blade)
     require_ramp(spin_up)
-    names = (excited_mode(blade, spin_up.fastest, mode),)
+    names = (excited_mode(blade, spin_up.fastest, mode, require_theory(theory)),)
     corrected = flag("corrected", corrected)
     if corrected:
         require_planar(blade, "corrected=True is of", "the closed form without it, or exact=True")
@@ -105,22 +115,50 @@ def residual_amplitude(
                 "exact=True is of the motion's own ramp time and of all modes: leave out "
                 "ramp_times and corrected"
             )
-        return _exact(blade, spin_up, names, tolerance)
+        return _exact(blade, spin_up, names, theory, tolerance)
     times = finite_array("ramp_times", spin_up.ramp_time if ramp_times is None else ramp_times, "s")
     for T in times.ravel()[times.ravel() <= 0.0]:
         positive("ramp_times", T, "s")
-    modes = modes_for(blade, spin_up, names)
-    left = np.abs(residuals(blade, spin_up, modes, times.ravel())[0]).reshape(times.shape)
+    of = partial(_of_all, names) if flag("all_modes", all_modes) else partial(_of_one, names)
+    left = of(blade, spin_up, theory, times.ravel()).reshape(times.shape)
     if corrected:
         left = _on_the_backbone(blade, spin_up.omega, left)
     return float(left) if ramp_times is None else left
 
 
-def modes_for(blade: Blade, spin_up: SpeedChange, names: tuple[str, ...]) -> ModesOverSpeed:
+def _of_one(
+    names: tuple[str, ...], blade: Blade, spin_up: SpeedChange, theory: Theory, times: FloatArray
+) -> FloatArray:
+    modes = modes_for(blade, spin_up, theory, names)
+    return np.asarray(np.abs(residuals(blade, spin_up, modes, times)[0]))
+
+
+def _of_all(
+    names: tuple[str, ...], blade: Blade, spin_up: SpeedChange, theory: Theory, times: FloatArray
+) -> FloatArray:
+    """Return half peak to peak of the lowest modes together, over L."""
+    omega, flap = spin_up.omega, names[0].startswith("flap")
+    period = period_of(blade, omega, theory, *names)
+    names = tuple(
+        name
+        for name in with_neighbors(blade, omega, theory, names)
+        if not name.startswith("torsion")
+    )
+    _, at = modes_at(blade, omega, theory, names)
+    after = np.linspace(0.0, blade.frequency_scale * period, _A_PERIOD)
+    moving = np.exp(np.multiply.outer(1j * at.frequency - at.decay, after))
+    shares = at.tips[:, 1 + flap] / at.tip
+    Z = residuals(blade, spin_up, modes_for(blade, spin_up, theory, names), times)
+    return np.asarray(0.5 * np.ptp(np.imag(Z.T @ (shares[:, None] * moving)), axis=1))
+
+
+def modes_for(
+    blade: Blade, spin_up: SpeedChange, theory: Theory, names: tuple[str, ...]
+) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
     # Rounded up, so that nearly equal speeds share one series.
     top = max(1.0, math.ceil(10.0 * spin_up.fastest / blade.frequency_scale) / 10.0)
-    return modes_over_speed(blade, top, names)
+    return modes_over_speed(blade, top, theory, names)
 
 
 def residuals(
@@ -189,30 +227,39 @@ def _waves(
     )
 
 
-def _exact(blade: Blade, spin_up: SpeedChange, names: tuple[str, ...], tolerance: float) -> float:
+def _exact(
+    blade: Blade, spin_up: SpeedChange, names: tuple[str, ...], theory: Theory, tolerance: float
+) -> float:
     """Return half peak to peak of the tip over L in the first period after the exact transient."""
-    T, period = spin_up.ramp_time, period_of(blade, spin_up.omega, *names)
+    T, period = spin_up.ramp_time, period_of(blade, spin_up.omega, theory, *names)
     during, after = np.linspace(0.0, T, 33), np.linspace(T, T + 1.1 * period, 300)
-    response = spin_up_response(blade, spin_up, np.append(during, after), tolerance=tolerance)
+    response = spin_up_response(
+        blade, spin_up, np.append(during, after), tolerance=tolerance, theory=theory
+    )
     seen = response.flap if names[0].startswith("flap") else response.q
     return float(np.ptp(seen[during.size :])) / (2.0 * blade.length)
 
 
 def exact_residuals(
-    blade: Blade, ramp: SpeedChange, names: tuple[str, ...], tolerance: float = 1e-6
+    blade: Blade,
+    ramp: SpeedChange,
+    names: tuple[str, ...],
+    theory: Theory,
+    tolerance: float = 1e-6,
 ) -> tuple[ComplexArray, float]:
     """Return Z (modes,) over L by the exact transient, for small oscillations.
 
     By least squares over the longest period of these modes, of the tip's place less the steady one.
     One mode more takes its share out of the others. And the largest |q|/L of the ramp.
     """
-    still, modes = modes_at(blade, ramp.omega, names, more=1)
+    all_names = with_neighbors(blade, ramp.omega, theory, names)
+    still, modes = modes_at(blade, ramp.omega, theory, all_names)
     # The times before tell how large the motion is, of which the tolerance is a share.
     during = np.linspace(0.0, ramp.ramp_time, _DURING)
     period = 2.0 * math.pi / (blade.frequency_scale * float(modes.frequency.min()))
-    after = np.linspace(0.0, period, 100)
+    after = np.linspace(0.0, period, _A_PERIOD)
     response = spin_up_response(
-        blade, ramp, np.append(during, ramp.ramp_time + after), tolerance=tolerance
+        blade, ramp, np.append(during, ramp.ramp_time + after), tolerance=tolerance, theory=theory
     )
     wave = np.exp(np.outer(after, blade.frequency_scale * (1j * modes.frequency - modes.decay)))
     places = np.stack((response.q, response.flap))[: still.size] / blade.length

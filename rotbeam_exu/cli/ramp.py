@@ -13,6 +13,7 @@ from analytic.spin_up.modes_over_speed import excited_mode
 
 from ..fem.lazily import require_exudyn
 from ..lazily import xr
+from ..runs.attributes import theory_of
 from .job import Results
 from .motion import chosen_ramps
 from .options import Number, Whole
@@ -55,7 +56,7 @@ def ramp(
     blade = request.blade
     case = request.case()
     omega = case.omega
-    mode = excited_mode(blade, omega, mode)
+    mode = excited_mode(blade, omega, mode, case.model.theory_of(blade))
     if longest is None:
         longest = chosen_ramps(blade)
     positive("longest", longest)
@@ -93,7 +94,7 @@ def _print(blade: Blade, omega: float, longest: float, data: xr.Dataset) -> None
     """Print the quiet ramps, then the points."""
     one, mode = SpinUp(omega=omega, ramp_time=longest), data.attrs["mode"]
     quiet = data["quiet_ramp_time"].to_numpy()
-    left = partial(analytic.residual_amplitude, blade, one, mode=mode)
+    left = partial(analytic.residual_amplitude, blade, one, mode=mode, theory=theory_of(data.attrs))
     print_columns(
         {
             "T [s]": formatted(quiet, ".4f"),
@@ -109,22 +110,22 @@ def _print(blade: Blade, omega: float, longest: float, data: xr.Dataset) -> None
     times = np.array(sorted({*exact, *elements}))
     if not times.size:
         return
-    by_backbone = {}
-    if np.isfinite(data["corrected"]).any():
-        by_backbone = {"with the backbone": formatted(left(times, corrected=True), "#.4g")}
+    more, note = "all modes", f"of {mode} alone, then of the lowest modes together"
+    if corrected := bool(np.isfinite(data["corrected"]).any()):
+        more, note = "with the backbone", "linear, then corrected by the action of FrM's orbit"
+    better = left(times, corrected=True) if corrected else left(times, all_modes=True)
     print_columns(
         {
             "T [s]": formatted(times, ".4f"),
             "closed form": formatted(left(times), "#.4g"),
-            **by_backbone,
+            more: formatted(better, "#.4g"),
             "exact": formatted([exact.get(T, np.nan) for T in times], "#.4g"),
             "finite elements": formatted([elements.get(T, np.nan) for T in times], "#.4g"),
         },
         title=f"Residual amplitude over L, ω = {omega:g} rad/s",
     )
-    note = "; with the backbone: corrected by the action of FrM's orbit" * bool(by_backbone)
-    moves = "out of the plane of rotation" if mode.startswith("flap") else "in it"
+    across = "out of the plane of rotation" if mode.startswith("flap") else "in its plane"
     print_note(
-        f"closed form: linear, {mode} alone{note}; exact and finite elements: all modes, "
-        f"half peak to peak {moves}; -: no transient"
+        f"closed form: {note}; exact and finite elements: half peak to peak of all modes {across}; "
+        "-: no transient"
     )

@@ -22,7 +22,7 @@ from ..fem.elements import Formulation, formulation
 from ..fem.simulation import simulate
 from ..labels import GROWTH, OMEGA, ORBIT, dataset
 from ..lazily import xr
-from ..runs.attributes import blade_attributes
+from ..runs.attributes import blade_attributes, theory_attributes
 
 _W_BAR = "speed ω̄ = ω/√(EI/ρAL⁴)"
 _CURVE = 400
@@ -30,6 +30,7 @@ _SHORTEST = 0.8
 """Shortest ramp time, in periods at rest."""
 _LARGEST = 0.9
 """Closed form beyond which the blade is thrown about, and nothing is measured."""
+_TOLERANCE = 1e-5  # of exact transients
 _STEPS = 1000
 """Steps in a period after the ramp."""
 
@@ -62,17 +63,18 @@ def residual(
         Numbers of ramp times of exact transients and of finite element runs, or zero. They are
         evenly spaced, from where the closed form leaves 0.9 to the longest.
     element, elements
-        As in `simulate`.
+        As in `simulate`; the theory is that of the element.
     progress : callable, optional
         Called with the transients and runs done and their number.
 
     Returns
     -------
     Dataset
-        `linear` and `corrected` (by the backbone's action; NaN of other modes than lag 1, and of
-        blades in space) over `ramp_time`, `exact` over `exact_ramp_time`, `finite_element` over
-        `finite_element_ramp_time`, `quiet` over `quiet_ramp_time`: half peak to peak of the tip
-        over L along the mode's motion; `linear` and `quiet` that of the mode alone.
+        Half peak to peak of the tip over L along the mode's motion: `linear`, `corrected` (by the
+        backbone's action; NaN of other modes than lag 1, and of blades in space) and `all_modes`
+        over `ramp_time`, `exact` over `exact_ramp_time`, `finite_element` over
+        `finite_element_ramp_time`, `quiet` over `quiet_ramp_time`; `linear` and `quiet` are of the
+        mode alone.
     """
     blade = Beam.reference() if blade is None else blade
     period = 2.0 * math.pi / blade.omega_0
@@ -89,19 +91,23 @@ def residual(
     ]
     one = SpinUp(omega=omega, ramp_time=longest)
     curve = np.linspace(_SHORTEST * period, longest, _CURVE)
-    mode = excited_mode(blade, omega, mode)
-    linear = residual_amplitude(blade, one, curve, mode=mode)
+    theory = model.theory_of(blade)
+    mode = excited_mode(blade, omega, mode, theory)
+    linear = residual_amplitude(blade, one, curve, mode=mode, theory=theory)
     corrected = np.full(_CURVE, np.nan)
     if blade.is_planar and mode == "lag 1":
-        corrected = residual_amplitude(blade, one, curve, corrected=True)
-    calm = curve[linear <= _LARGEST].min(initial=longest)
+        corrected = residual_amplitude(blade, one, curve, theory=theory, corrected=True)
+    together = residual_amplitude(blade, one, curve, mode=mode, theory=theory, all_modes=True)
+    calm = curve[together <= _LARGEST].min(initial=longest)
     exact_at, elements_at = (np.linspace(calm, longest, count) for count in counts)
 
     def more(done: int, count: int) -> None:
         if progress is not None:
             progress(done, count + sum(counts))
 
-    quiet = quiet_ramp_times(blade, omega, mode=mode, longest=longest, progress=more)
+    quiet = quiet_ramp_times(
+        blade, omega, mode=mode, theory=theory, longest=longest, tolerance=_TOLERANCE, progress=more
+    )
     found, done = quiet.ramp_times.size, itertools.count(quiet.ramp_times.size + 1)
 
     def measured(measure: Callable[[SpinUp], float], times: FloatArray) -> list[float]:
@@ -116,7 +122,9 @@ def residual(
         return left
 
     exact = measured(
-        lambda ramp: residual_amplitude(blade, ramp, mode=mode, exact=True, tolerance=1e-5),
+        lambda ramp: residual_amplitude(
+            blade, ramp, mode=mode, theory=theory, exact=True, tolerance=_TOLERANCE
+        ),
         exact_at,
     )
     runs = measured(lambda ramp: _of_elements(blade, ramp, mode, model, elements), elements_at)
@@ -127,6 +135,7 @@ def residual(
         {
             "linear": ("ramp_time", linear, f"{left}closed form"),
             "corrected": ("ramp_time", corrected, by_backbone),
+            "all_modes": ("ramp_time", together, f"{left}closed form of all modes"),
             "exact": ("exact_ramp_time", exact, f"{left}exact transient"),
             "finite_element": ("finite_element_ramp_time", runs, f"{left}finite elements"),
             "quiet": ("quiet_ramp_time", quiet.left, f"{left}quiet ramps"),
@@ -140,6 +149,7 @@ def residual(
         {
             **blade_attributes(blade),
             "omega": omega,
+            **theory_attributes(theory),
             "mode": mode,
             "longest": longest,
             "element": model.name,
@@ -153,7 +163,7 @@ def _of_elements(
     blade: Blade, ramp: SpinUp, mode: str, element: Formulation, elements: int
 ) -> float:
     """Return half peak to peak over L in the first period after the ramp, of a run."""
-    period = period_of(blade, ramp.omega, mode)
+    period = period_of(blade, ramp.omega, element.theory_of(blade), mode)
     step = min(period / _STEPS, ramp.ramp_time / _STEPS)
     duration = step * math.ceil((ramp.ramp_time + 1.1 * period) / step)
     run = simulate(blade, ramp, element=element, elements=elements, duration=duration, step=step)

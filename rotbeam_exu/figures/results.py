@@ -137,9 +137,11 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
         "quiet": {"color": red, "marker": "v", "ms": 5, "label": "quiet ramps"},
     }  # fmt: skip
     with house_axes(ax, column(), 3.2) as axes:
-        axes.semilogy(times, data["linear"], color=blue, label="linear modes, closed form")
-        corrected = {"ls": "--", "lw": 0.8, "label": "corrected by the backbone"}
-        axes.semilogy(times, data["corrected"], color=blue, **corrected)
+        axes.semilogy(times, data["linear"], color=blue, label=f"{data.attrs['mode']}, closed form")
+        more, name = data["corrected"], "corrected by the backbone"
+        if not np.isfinite(more).any():
+            more, name = data["all_modes"], "lowest modes together"
+        axes.semilogy(times, more, color=blue, ls="--", lw=0.8, label=name)
         for name, look in points.items():
             if data[name].size:
                 at, clipped = data[f"{name}_ramp_time"], name == "quiet"
