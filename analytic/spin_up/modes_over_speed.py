@@ -59,13 +59,12 @@ class ModesOverSpeed:
     coefficients: ComplexArray = field(repr=False)
 
     def at(self, w: FloatArray) -> ModesAt:
-        """Return the modes at speeds `w`, (speeds,).
+        """Return the modes at speeds `w`, (speeds,), whose sign does not matter.
 
-        Backward they are the same in reversed time. Beyond the top they are those at the top.
+        Beyond the top they are those at the top.
         """
         inside = np.minimum(2.0 * np.abs(w) / self.top - 1.0, 1.0)
         frequency, decay, force, tip = chebyshev.chebval(inside, self.coefficients)
-        force, tip = (np.where(w < 0.0, part.conj(), part) for part in (force, tip))
         return ModesAt(frequency.real, decay.real, force, tip)
 
 
@@ -129,11 +128,13 @@ def _places(
 def with_neighbors(
     blade: Blade, omega: float, theory: Theory, names: tuple[str, ...]
 ) -> tuple[str, ...]:
-    """Return names of modes, then of all others below the highest of them, and of one above it."""
+    """Return names of modes, then of all others up to the next of the family of the highest."""
     modes, places = _places(blade, omega, theory, names)
-    last = max(places) + 1
-    modes = _found(blade, omega, theory, lambda found: len(_across(found[last:])) > 0)
-    others = _across(modes.names[:last]) + _across(modes.names[last:])[:1]
+    family, number = modes.names[max(places)].split()
+    following = f"{family} {int(number) + 1}"
+    modes = _found(blade, omega, theory, lambda found: following in found)
+    last = modes.names.index(following) if following in modes.names else max(places)
+    others = _across(modes.names[: last + 1])
     return names + tuple(name for name in others if name not in names)
 
 

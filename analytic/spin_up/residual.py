@@ -80,7 +80,7 @@ def residual_amplitude(
         planar blade: 1 to 3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
     all_modes : bool
         Take half peak to peak of the tip in the mode's direction, in its first period after the
-        ramp, of this mode, those below it and one above.
+        ramp, of all modes up to the next of its family.
     exact : bool
         Take the same of the exact transient, all modes and large deflections included, of the
         motion's own ramp time.
@@ -250,7 +250,7 @@ def exact_residuals(
     """Return Z (modes,) over L by the exact transient, for small oscillations.
 
     By least squares over the longest period of these modes, of the tip's place less the steady one.
-    One mode more takes its share out of the others. And the largest |q|/L of the ramp.
+    Modes up to the next of their family take their share. And the largest |q|/L of the ramp.
     """
     all_names = with_neighbors(blade, ramp.omega, theory, names)
     still, modes = modes_at(blade, ramp.omega, theory, all_names)

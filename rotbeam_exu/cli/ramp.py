@@ -95,14 +95,17 @@ def _print(blade: Blade, omega: float, longest: float, data: xr.Dataset) -> None
     one, mode = SpinUp(omega=omega, ramp_time=longest), data.attrs["mode"]
     quiet = data["quiet_ramp_time"].to_numpy()
     left = partial(analytic.residual_amplitude, blade, one, mode=mode, theory=theory_of(data.attrs))
-    print_columns(
-        {
-            "T [s]": formatted(quiet, ".4f"),
-            "residual/L": formatted(data["quiet"], ".2e"),
-            "closed form": formatted(left(quiet), ".2e"),
-        },
-        title=f"Quiet ramp times of Eq. 1, {mode}",
-    )
+    if quiet.size:
+        print_columns(
+            {
+                "T [s]": formatted(quiet, ".4f"),
+                "residual/L": formatted(data["quiet"], ".2e"),
+                "closed form": formatted(left(quiet), ".2e"),
+            },
+            title=f"Quiet ramp times of Eq. 1, {mode}",
+        )
+    else:
+        print_note(f"{mode} has no quiet ramp time up to {longest:g} s")
     exact, elements = (
         dict(zip(data[f"{name}_ramp_time"].to_numpy(), data[name].to_numpy(), strict=True))
         for name in ("exact", "finite_element")

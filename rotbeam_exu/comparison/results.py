@@ -30,6 +30,7 @@ _SHORTEST = 0.8
 """Shortest ramp time, in periods at rest."""
 _LARGEST = 0.9
 """Closed form beyond which the blade is thrown about, and nothing is measured."""
+_LARGEST_IN_SPACE = 0.25  # where a transient takes minutes beyond it
 _TOLERANCE = 1e-5  # of exact transients
 _STEPS = 1000
 """Steps in a period after the ramp."""
@@ -98,7 +99,14 @@ def residual(
     if blade.is_planar and mode == "lag 1":
         corrected = residual_amplitude(blade, one, curve, theory=theory, corrected=True)
     together = residual_amplitude(blade, one, curve, mode=mode, theory=theory, all_modes=True)
-    calm = curve[together <= _LARGEST].min(initial=longest)
+    swing, largest = together, _LARGEST
+    if not blade.is_planar:
+        ways = [
+            residual_amplitude(blade, one, curve, mode=of, theory=theory, all_modes=True)
+            for of in ("flap 1", "lag 1")
+        ]
+        swing, largest = np.hypot(*ways), _LARGEST_IN_SPACE
+    calm = curve[swing <= largest].min(initial=longest)
     exact_at, elements_at = (np.linspace(calm, longest, count) for count in counts)
 
     def more(done: int, count: int) -> None:

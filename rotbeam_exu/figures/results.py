@@ -153,7 +153,7 @@ def residual(data: xr.Dataset, ax: Axes | None = None) -> Axes:
             )  # fmt: skip
         lowest = float(np.nanmin(np.append(data["linear"], data["quiet"])))
         axes.set(
-            xlabel=label(times), ylabel="residual amplitude $|q|/L$",
+            xlabel=label(times), ylabel="residual amplitude over $L$",
             xlim=(float(times[0]), float(times[-1])), ylim=(0.3 * lowest, 1.5),
         )  # fmt: skip
         axes.set_title(f"ω = {quantity(data.attrs['omega'], 'rad/s')}", loc="left")

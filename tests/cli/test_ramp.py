@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rotbeam_exu import comparison, load
+from tests.files.test_beam_file import STATIONS
 
 QUICK = ("--omega", "2", "--longest", "4.6", "--points", "2", "--finite-element-points", "1")
 
@@ -14,7 +15,7 @@ def test_tables_and_files(call, reached, tmp_path):
     asked = ("ramp", *QUICK, "--elements", "4", "--out", tmp_path)
     code, out, error = call(*asked)
     assert code == 0
-    assert "3 of 3 done" in error
+    assert "4 of 4 done" in error  # a quiet ramp, too
     rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
     # Another code's quiet ramp, and what it leaves.
     quiet, left, form = map(float, rows[0])
@@ -43,3 +44,23 @@ def test_tables_and_files(call, reached, tmp_path):
     code, _, error = call(*asked[:points], "3", *asked[points + 1 :])
     assert code == 2
     assert "points 2 instead of 3" in error
+
+
+@pytest.mark.slow
+def test_a_table_of_stations(call, tmp_path):
+    """Closed form of the lowest modes, exact transient and elements, which are four."""
+    path = tmp_path / "blade.toml"
+    path.write_text(STATIONS)
+    asked = ("ramp", "--config", path, "--omega", "0.5", "--longest", "6.5", "--mode", "flap 1")
+    few = ("--points", "1", "--finite-element-points", "1", "--elements", "4", "--out", tmp_path)
+    code, out, _ = call(*asked, *few)
+    assert code == 0
+    assert "flap 1 has no quiet ramp time up to 6.5 s" in out
+    assert "of all modes out of the plane of rotation" in out
+    rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
+    _, _, together, exact, elements = map(float, rows[-1])
+    assert together == pytest.approx(exact, rel=0.1)
+    assert elements == pytest.approx(exact, rel=0.1)
+    data = load(tmp_path / "ramp-omega-0.5-longest-6.5-flap-1.nc")
+    assert data.attrs["mode"] == "flap 1"
+    assert np.isnan(data["corrected"]).all()

@@ -91,7 +91,7 @@ HELP = "requires an argument. rotbeam {} --help explains it"
             "run --element cable --config ../stations.toml",
             "on the command line --element space_exact",
         ),
-        ("ramp --config ../stations.toml", "ramp is for a straight blade in its plane, and this"),
+        ("ramp --mode 'flap 1'", "no change of the speed excites flap 1 of this blade"),
         (f"{STABILITY}--config ../stations.toml", "planar motion is of a straight blade in its"),
         ("explore --out explorer.pdf", "the ending must be .html"),
         ("judge mine --report a.pdf", "the ending must be .html"),
