@@ -40,7 +40,7 @@ _STEP = 1e-4  # of the state that ẇ bends
 class ModesAt(NamedTuple):
     """Modes of unit action at speeds w̄, each (modes, speeds), nondimensional.
 
-    The natural frequency, the rate at which damping takes the amplitude, the force φᴴg, and the
+    The natural frequency, the rate of decay by damping, the force φᴴg, and the
     motion of the tip along the mode's own direction: of flap normal to the plane of rotation, of
     others in it.
     """
@@ -94,7 +94,7 @@ def excited_mode(blade: Blade, omega: float, mode: str | int, theory: Theory) ->
     if name not in names:
         raise ValueError(
             f"no change of the speed excites {name} of this blade, or it is none of the lowest "
-            f"{len(names)} modes: at {omega:.4g} rad/s take {', '.join(_across(names)[:_FIRST])}"
+            f"{len(names)} modes: at {omega:.4g} rad/s ask for {', '.join(_across(names)[:_FIRST])}"
         )
     return name
 

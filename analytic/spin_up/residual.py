@@ -2,7 +2,7 @@
 
 While the speed changes slowly over a period, a mode keeps its action. The Euler force, and the
 inertia of the moving steady state, add φᴴg(w) θ̈ to it in phase ψ = ∫ω_n(w) dt, by the modes φ(w)
-of unit action of `modes_over_speed`. The ramp leaves
+of unit action of `modes_over_speed`. After the ramp stays
 
     Z = v(w_T) ∫_0^T φᴴg(w) θ̈ exp(i(ψ_T - ψ)) dt,      a = |Z|,
 
@@ -79,7 +79,7 @@ def residual_amplitude(
         Take the linear action for the action of the nonlinear orbit (FrM, Eq. 41), of lag 1 of a
         planar blade: 1 to 3 % high up to a = 0.6, 10 % at 0.84; NaN beyond 1.2.
     all_modes : bool
-        Take half peak to peak of the tip in the mode's direction, in its first period after the
+        Half peak to peak of the tip in the mode's direction, in its first period after the
         ramp, of all modes up to the next of its family.
     exact : bool
         Take the same of the exact transient, all modes and large deflections included, of the
@@ -193,7 +193,7 @@ class _Waves(NamedTuple):
     ahead: ComplexArray
     """The same from the ends of the pieces, (modes, pieces)."""
     force: ComplexArray
-    """What the acceleration excites, with the weights of Gauss's method, (modes, points)."""
+    """Force of the acceleration, with the weights of Gauss's method, (modes, points)."""
     tip: ComplexArray
     """At the edges of the pieces, (modes, pieces + 1)."""
 
@@ -250,7 +250,7 @@ def exact_residuals(
     """Return Z (modes,) over L by the exact transient, for small oscillations.
 
     By least squares over the longest period of these modes, of the tip's place less the steady one.
-    Modes up to the next of their family take their share. And the largest |q|/L of the ramp.
+    Modes up to the next of their family are fitted, too. And the largest |q|/L of the ramp.
     """
     all_names = with_neighbors(blade, ramp.omega, theory, names)
     still, modes = modes_at(blade, ramp.omega, theory, all_names)

@@ -38,7 +38,7 @@ def ramp(
     Parameters
     ----------
     mode
-        Mode whose vibration is left, by its name or number.
+        Mode of the residual vibration, by its name or number.
     longest
         Longest ramp time [s]; 10 for the paper's beam.
     points
@@ -49,7 +49,7 @@ def ramp(
     Examples
     --------
     $ rotbeam ramp --omega 6 --longest 10
-    $ rotbeam ramp --config nrel_5mw.toml --mode "flap 1" --points 3 --finite-element-points 0
+    $ rotbeam ramp --config nrel_5mw.toml --mode "flap 1" --points 3
     """
     from .. import comparison
 
@@ -105,7 +105,7 @@ def _print(blade: Blade, omega: float, longest: float, data: xr.Dataset) -> None
             title=f"Quiet ramp times of Eq. 1, {mode}",
         )
     else:
-        print_note(f"{mode} has no quiet ramp time up to {longest:g} s")
+        print_note(f"no quiet ramp time of {mode} up to {longest:g} s")
     exact, elements = (
         dict(zip(data[f"{name}_ramp_time"].to_numpy(), data[name].to_numpy(), strict=True))
         for name in ("exact", "finite_element")

@@ -124,7 +124,7 @@ def residual(
             try:
                 left.append(measure(SpinUp(omega=omega, ramp_time=T)))
             except RuntimeError as error:
-                warn(f"a ramp of {T:.4g} s is left out: {error}")
+                warn(f"a ramp of {T:.4g} s is not among the results: {error}")
                 left.append(math.nan)
             more(next(done), found)
         return left

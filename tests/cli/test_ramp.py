@@ -55,7 +55,7 @@ def test_a_table_of_stations(call, tmp_path):
     few = ("--points", "1", "--finite-element-points", "1", "--elements", "4", "--out", tmp_path)
     code, out, _ = call(*asked, *few)
     assert code == 0
-    assert "flap 1 has no quiet ramp time up to 6.5 s" in out
+    assert "no quiet ramp time of flap 1 up to 6.5 s" in out
     assert "of all modes out of the plane of rotation" in out
     rows = [re.split(r"\s*│\s*", line)[1:-1] for line in out.splitlines() if line.startswith("│")]
     _, _, together, exact, elements = map(float, rows[-1])

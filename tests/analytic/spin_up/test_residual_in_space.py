@@ -120,7 +120,7 @@ def test_bad_input():
         residual_amplitude(TWISTED, spin_up, corrected=True)
     with pytest.raises(ValueError, match="corrected=True is of the orbit of lag 1, and mode is"):
         residual_amplitude(STRAIGHT, spin_up, mode="lag 2", corrected=True)
-    with pytest.raises(ValueError, match=r"no change of the speed excites flap 1.*take lag 1"):
+    with pytest.raises(ValueError, match=r"no change of the speed excites flap 1.*ask for lag 1"):
         residual_amplitude(STRAIGHT, spin_up, mode="flap 1")
     with pytest.raises(ValueError, match="mode must be a name"):
         quiet_ramp_times(TWISTED, 2.0, mode="edge")
