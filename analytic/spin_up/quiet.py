@@ -60,6 +60,7 @@ def quiet_ramp_times(
     *,
     mode: str | int = "lag 1",
     theory: Theory = BERNOULLI_EULER,
+    shortest: float | None = None,
     longest: float | None = None,
     tolerance: float = 1e-6,
     progress: Callable[[int, int], None] | None = None,
@@ -76,6 +77,8 @@ def quiet_ramp_times(
         Speed after the ramp [rad/s].
     mode, theory
         As for `residual_amplitude`.
+    shortest : float, optional
+        Shortest ramp time [s]; half a period of the blade at rest if not given.
     longest : float, optional
         Longest ramp time [s]; five periods of the blade at rest if not given.
     tolerance : float
@@ -100,12 +103,13 @@ def quiet_ramp_times(
     if omega == 0.0:
         raise ValueError("omega = 0 rad/s has no residual at any ramp time: take a higher speed")
     longest = _PERIODS * period if longest is None else positive("longest", longest, "s")
+    shortest = 0.5 * period if shortest is None else positive("shortest", shortest, "s")
     unit = SpinUp(omega=omega, ramp_time=longest)
     names = (excited_mode(blade, omega, mode, require_theory(theory)),)
     modes = modes_for(blade, unit, theory, names)
     frequency = modes.at(np.array([omega / blade.frequency_scale])).frequency[0, 0]
     spacing = 2.0 * math.pi / (_A_PERIOD * frequency * blade.frequency_scale)
-    tried = np.arange(0.5 * period, longest + spacing, spacing)
+    tried = np.arange(shortest, longest + spacing, spacing)
     sizes = np.abs(residuals(blade, unit, modes, tried)[0])
     candidates, minima = [], tried[signal.argrelmin(sizes)[0]]
     for T in minima.tolist():

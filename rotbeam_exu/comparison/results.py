@@ -106,7 +106,8 @@ def residual(
             for of in ("flap 1", "lag 1")
         ]
         swing, largest = np.hypot(*ways), _LARGEST_IN_SPACE
-    calm = curve[swing <= largest].min(initial=longest)
+    calm = float(curve[swing <= largest].min(initial=longest))
+    shortest = None if blade.is_planar else calm
     exact_at, elements_at = (np.linspace(calm, longest, count) for count in counts)
 
     def more(done: int, count: int) -> None:
@@ -114,7 +115,14 @@ def residual(
             progress(done, count + sum(counts))
 
     quiet = quiet_ramp_times(
-        blade, omega, mode=mode, theory=theory, longest=longest, tolerance=_TOLERANCE, progress=more
+        blade,
+        omega,
+        mode=mode,
+        theory=theory,
+        shortest=shortest,
+        longest=longest,
+        tolerance=_TOLERANCE,
+        progress=more,
     )
     found, done = quiet.ramp_times.size, itertools.count(quiet.ramp_times.size + 1)
 

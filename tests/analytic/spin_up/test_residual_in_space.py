@@ -86,7 +86,7 @@ def test_shear_is_seen():
 
 @pytest.mark.slow
 def test_a_quiet_ramp_leaves_less_than_those_around():
-    found = quiet_ramp_times(TWISTED, 2.0, longest=5.0, tolerance=1e-5)
+    found = quiet_ramp_times(TWISTED, 2.0, shortest=2.0, longest=5.0, tolerance=1e-5)
     assert found.mode == "lag 1"
     T, left = found.ramp_times[-1], found.left[-1]
     for off in (-0.05, 0.05):
@@ -124,6 +124,8 @@ def test_bad_input():
         residual_amplitude(STRAIGHT, spin_up, mode="flap 1")
     with pytest.raises(ValueError, match="mode must be a name"):
         quiet_ramp_times(TWISTED, 2.0, mode="edge")
+    with pytest.raises(ValueError, match="shortest must be positive"):
+        quiet_ramp_times(TWISTED, 2.0, shortest=-1.0)
     with pytest.raises(ValueError, match="largest is of a straight blade in its plane"):
         design_ramp(TWISTED, 2.0, 5.0, largest=0.2)
     with pytest.raises(TypeError, match="all_modes must be"):
