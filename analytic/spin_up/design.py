@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..blade import Blade
-from ..blade_checks import require_planar
+from ..blade_checks import require_blade, require_planar
 from ..input_checks import peak_deflection, positive, rotation_speed, whole_number
 from ..lazily import linalg, optimize
 from ..ramps import FourierRamp
@@ -202,6 +202,7 @@ def design_ramp(
     >>> print(residual_amplitude(Beam.reference(), ramp, exact=True) < 1e-4)
     True
     """
+    require_blade(blade)
     omega, start = rotation_speed(omega), rotation_speed(start, "start")
     duration = positive("duration", duration, "s")
     modes = whole_number("modes", modes, most=_MOST_MODES)

@@ -27,7 +27,7 @@ from ..exact.continuum.rotation import GAUGES, SteadyBlade
 from ..exact.continuum.state import Driven
 from ..exact.linear.families import LinearModes
 from ..exact.linear.modes import driven_modes, mode_name
-from ..lazily import optimize
+from ..exact.linear.speeds import followed
 from ..theory import Theory
 
 _SETTLED = 1e-8
@@ -40,9 +40,8 @@ _STEP = 1e-4  # of the state that ẇ bends
 class ModesAt(NamedTuple):
     """Modes of unit action at speeds w̄, each (modes, speeds), nondimensional.
 
-    The natural frequency, the rate of decay by damping, the force φᴴg, and the
-    motion of the tip along the mode's own direction: of flap normal to the plane of rotation, of
-    others in it.
+    The natural frequency, the rate of decay by damping, the force φᴴg, and the motion of the tip
+    along the mode's own direction: of flap normal to the plane of rotation, of others in it.
     """
 
     frequency: FloatArray
@@ -81,15 +80,23 @@ class SolvedModes(NamedTuple):
     turning: ComplexArray  # φᴴMφ, and φᴴ(δK + iω_n δC - ω_n²δM)φ by ẇ, (2, modes)
 
 
-def excited_modes(blade: Blade, omega: float, count: int, theory: Theory) -> tuple[str, ...]:
+def top_of(blade: Blade, fastest: float) -> float:
+    """Return the speed w̄ up to which modes serve a motion whose fastest is `fastest` [rad/s]."""
+    # Rounded up, so that nearly equal speeds share one series.
+    return max(1.0, math.ceil(10.0 * fastest / blade.frequency_scale) / 10.0)
+
+
+def excited_modes(blade: Blade, fastest: float, count: int, theory: Theory) -> tuple[str, ...]:
     """Return the names of the lowest modes that a change of the speed excites, but axial ones."""
+    omega = top_of(blade, fastest) * blade.frequency_scale
     modes = _found(blade, omega, theory, lambda names: len(_across(names)) >= count)
     return _across(modes.names)[:count]
 
 
-def excited_mode(blade: Blade, omega: float, mode: str | int, theory: Theory) -> str:
+def excited_mode(blade: Blade, fastest: float, mode: str | int, theory: Theory) -> str:
     """Return the name of a mode that a change of the speed excites, given by name or number."""
-    name = mode_name(blade, omega, mode, theory)
+    name = mode_name(blade, fastest, mode, theory)
+    omega = top_of(blade, fastest) * blade.frequency_scale
     names = _found(blade, omega, theory, lambda names: name in names).names
     if name not in names:
         raise ValueError(
@@ -166,23 +173,23 @@ def modes_over_speed(
     """Return the modes, named as at the speed `top`, for speeds w̄ from 0 to `top`."""
     modes, places = _places(blade, top * blade.frequency_scale, theory, names)
     at_top, along = modes.steady, _along(names)
-    followed = {1.0: (at_top, np.array(places))}
-    solved = {1.0: _modes(at_top, followed[1.0][1], along)}
+    found = {1.0: (at_top, np.array(places))}
+    solved = {1.0: _modes(*found[1.0], along)}
     points = _FEWEST
     while True:
         x = np.cos(np.pi * np.arange(points) / (points - 1))
         x[points // 2] = 0.0
         for faster, at in itertools.pairwise(x.tolist()):
             if at not in solved:
-                before, of = followed[faster]
+                before, of = found[faster]
                 w = 0.5 * top * (1.0 + at)
                 steady = replace(at_top, rate=w, near=before.equilibrium, given=None)
-                followed[at] = steady, _followed(before, steady, of)
-                solved[at] = _modes(*followed[at], along)
+                found[at] = steady, followed(before, steady, of)[0]
+                solved[at] = _modes(*found[at], along)
         coefficients = _turned(top, x, [solved[at] for at in x.tolist()])
-        # Decay is small beside the frequency, and the force on some modes beside that on others.
+        # Decay counts relative to the frequency, and each force to the largest.
         frequency, _, force, tip = np.abs(coefficients).max(axis=0)
-        size = np.stack((frequency, frequency, 0.0 * force + force.max(), tip))
+        size = np.stack((frequency, frequency, np.full_like(force, force.max()), tip))
         rest = float((np.abs(coefficients[-2:]).max(axis=0) / size).max())
         if rest < _SETTLED:
             return ModesOverSpeed(top, coefficients)
@@ -192,14 +199,6 @@ def modes_over_speed(
                 f"speeds ({rest:.1e}): take fewer modes, or a lower speed"
             )
         points = 2 * points - 1
-
-
-def _followed(
-    steady: SteadyBlade, other: SteadyBlade, places: NDArray[np.intp]
-) -> NDArray[np.intp]:
-    """Return the places of modes at another speed, by the likeness of their shapes."""
-    a, b = (one.vibration[1] / np.linalg.norm(one.vibration[1], axis=0) for one in (steady, other))
-    return optimize.linear_sum_assignment(-np.abs(a[:, places].conj().T @ b))[1]
 
 
 def _modes(

@@ -36,6 +36,7 @@ from .modes_over_speed import (
     modes_at,
     modes_over_speed,
     period_of,
+    top_of,
     with_neighbors,
 )
 
@@ -104,8 +105,10 @@ def residual_amplitude(
     require_blade(blade)
     require_ramp(spin_up)
     names = (excited_mode(blade, spin_up.fastest, mode, require_theory(theory)),)
-    corrected = flag("corrected", corrected)
+    corrected, all_modes = flag("corrected", corrected), flag("all_modes", all_modes)
     if corrected:
+        if all_modes:
+            raise ValueError("corrected=True is of lag 1 alone: leave out all_modes, or corrected")
         require_planar(blade, "corrected=True is of", "the closed form without it, or exact=True")
         if names != ("lag 1",):
             raise ValueError(f"corrected=True is of the orbit of lag 1, and mode is {names[0]}")
@@ -119,7 +122,7 @@ def residual_amplitude(
     times = finite_array("ramp_times", spin_up.ramp_time if ramp_times is None else ramp_times, "s")
     for T in times.ravel()[times.ravel() <= 0.0]:
         positive("ramp_times", T, "s")
-    of = partial(_of_all, names) if flag("all_modes", all_modes) else partial(_of_one, names)
+    of = partial(_of_all, names) if all_modes else partial(_of_one, names)
     left = of(blade, spin_up, theory, times.ravel()).reshape(times.shape)
     if corrected:
         left = _on_the_backbone(blade, spin_up.omega, left)
@@ -156,9 +159,7 @@ def modes_for(
     blade: Blade, spin_up: SpeedChange, theory: Theory, names: tuple[str, ...]
 ) -> ModesOverSpeed:
     """Return the modes for all speeds of a motion."""
-    # Rounded up, so that nearly equal speeds share one series.
-    top = max(1.0, math.ceil(10.0 * spin_up.fastest / blade.frequency_scale) / 10.0)
-    return modes_over_speed(blade, top, theory, names)
+    return modes_over_speed(blade, top_of(blade, spin_up.fastest), theory, names)
 
 
 def residuals(

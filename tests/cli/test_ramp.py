@@ -51,9 +51,9 @@ def test_a_table_of_stations(call, tmp_path):
     """Closed form of the lowest modes, exact transient and elements, which are four."""
     path = tmp_path / "blade.toml"
     path.write_text(STATIONS)
-    asked = ("ramp", "--config", path, "--omega", "0.5", "--longest", "6.5", "--mode", "flap 1")
+    command = ("ramp", "--config", path, "--omega", "0.5", "--longest", "6.5", "--mode", "flap 1")
     few = ("--points", "1", "--finite-element-points", "1", "--elements", "4", "--out", tmp_path)
-    code, out, _ = call(*asked, *few)
+    code, out, _ = call(*command, *few)
     assert code == 0
     assert "no quiet ramp time of flap 1 up to 6.5 s" in out
     assert "of all modes out of the plane of rotation" in out

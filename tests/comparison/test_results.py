@@ -1,4 +1,4 @@
-"""What a ramp leaves of a real blade: closed form, exact transient and finite elements."""
+"""The residual amplitude of a real blade: closed form, exact transient and finite elements."""
 
 from pathlib import Path
 

@@ -113,9 +113,7 @@ class SpeedRange:
     def _followed(self, before: Stop, rate: float, left: int = _HALVINGS) -> list[Stop]:
         """Return the stops on the way to a rate, which is halved where shapes change much."""
         steady = self.at(rate)
-        criterion = _assurance(before.steady, steady.vibration[1])[before.places]
-        rows, places = optimize.linear_sum_assignment(-criterion)
-        sure = criterion[rows, places]
+        places, sure = followed(before.steady, steady, before.places)
         if left and sure.min() < _SURE:
             middle = math.sqrt(0.5 * (before.steady.rate**2 + rate**2))
             way = self._followed(before, middle, left - 1)
@@ -179,6 +177,15 @@ def range_between(
             break
     judged(change, tolerance, what, "ask for a smaller range of speeds")
     return found, change
+
+
+def followed(
+    before: SteadyBlade, steady: SteadyBlade, places: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], FloatArray]:
+    """Return the places of modes at another speed, and the modal assurance criterion of each."""
+    criterion = _assurance(before, steady.vibration[1])[places]
+    rows, columns = optimize.linear_sum_assignment(-criterion)
+    return columns, criterion[rows, columns]
 
 
 def _assurance(steady: SteadyBlade, others: NDArray[Any]) -> FloatArray:

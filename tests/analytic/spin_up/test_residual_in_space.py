@@ -1,4 +1,4 @@
-"""What a change of the speed leaves in a blade in space: closed form, exact transient, limits."""
+"""The residual amplitude of a blade in space: closed form, exact transient, limits."""
 
 import numpy as np
 import pytest
@@ -50,7 +50,7 @@ def test_closed_form_and_exact_transient_agree_as_ramps_get_longer(fitted_order)
 
 @pytest.mark.parametrize("times", [None, [6.0, 8.0]])
 def test_the_plane_is_the_limit(times):
-    """Of no twist, whose square is below round-off."""
+    """The twist is so small that its square is below round-off."""
     spin_up = SpinUp(omega=2.0, ramp_time=6.0)
     for more in ({}, {"all_modes": True}, {"mode": "lag 2"}):
         plane, space = (
@@ -61,7 +61,7 @@ def test_the_plane_is_the_limit(times):
 
 
 def test_all_modes_together_are_half_peak_to_peak_of_the_tip():
-    """Of flap, which has most of the motion in both directions, to what large swings leave."""
+    """Flap is most of the motion in both directions; 0.15 is for large swings."""
     spin_up = SpinUp(omega=2.0, ramp_time=12.0)
     for mode in MODES:
         closed = residual_amplitude(TWISTED, spin_up, mode=mode, all_modes=True)
@@ -106,7 +106,7 @@ def test_a_designed_ramp_leaves_flap_and_lag_at_rest():
 
 
 def test_damping_takes_its_share_of_each_mode():
-    """What is left decays further while it is measured."""
+    """The closed form with damping is right, and that without is not."""
     damped = TWISTED.with_damping(Damping(bending=0.02, out_of_plane=0.02, torsion=0.02))
     closed, exact = both(damped, SpinUp(omega=2.0, ramp_time=12.0))
     free = both(TWISTED, SpinUp(omega=2.0, ramp_time=12.0))[0]
@@ -118,6 +118,8 @@ def test_bad_input():
     spin_up = SpinUp(omega=2.0, ramp_time=6.0)
     with pytest.raises(ValueError, match="corrected=True is of a straight blade in its plane"):
         residual_amplitude(TWISTED, spin_up, corrected=True)
+    with pytest.raises(ValueError, match="leave out all_modes, or corrected"):
+        residual_amplitude(STRAIGHT, spin_up, corrected=True, all_modes=True)
     with pytest.raises(ValueError, match="corrected=True is of the orbit of lag 1, and mode is"):
         residual_amplitude(STRAIGHT, spin_up, mode="lag 2", corrected=True)
     with pytest.raises(ValueError, match=r"no change of the speed excites flap 1.*ask for lag 1"):
